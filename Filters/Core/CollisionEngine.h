@@ -1,0 +1,65 @@
+#ifndef CollisionEngine_h
+#define CollisionEngine_h
+
+#include "Vec3.h"
+#include "vtkHapticsCoreModule.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace haptics
+{
+/// What answers "which triangles come near here".
+enum class EngineKind
+{
+  Automatic,  ///< BruteForce on a surface of few triangles, else Embree
+  BruteForce, ///< looks at every triangle: the reference, and the fastest on tiny surfaces
+  Embree,     ///< Intel Embree's bounding volume hierarchy
+  Exact       ///< CGAL's tree: the oracle; only in builds with the optional GPL part
+};
+
+/// A fixed list of triangle indices, filled by an engine. Never allocates.
+struct TriangleList
+{
+  std::int32_t* Indices = nullptr;
+  std::int32_t Capacity = 0;
+  std::int32_t Count = 0;
+  bool Overflow = false; ///< more than Capacity were found: the list is not whole
+
+  /// False once the list has overflowed: the engine can stop looking.
+  bool Add(std::int32_t triangle)
+  {
+    if (this->Count == this->Capacity)
+    {
+      this->Overflow = true;
+      return false;
+    }
+    this->Indices[this->Count++] = triangle;
+    return true;
+  }
+};
+
+/// @brief Proposes the triangles that a contact update has to look at.
+///
+/// Both questions are answered *conservatively*: every triangle that meets the region is in the
+/// list, each once, in any order; others may be. Certainty comes from the caller's predicates.
+/// Coordinates are in the surface's local frame. Queries are made by one or more servo threads at
+/// once: const, no allocation, no lock, no exception.
+class VTKHAPTICSCORE_EXPORT CollisionEngine
+{
+public:
+  virtual ~CollisionEngine() = default;
+
+  /// Appends the triangles that meet the ball.
+  virtual void FindInBall(const Vec3& centre, double radius, TriangleList& found) const noexcept = 0;
+  /// Appends the triangles that meet the segment thickened by `margin`.
+  virtual void FindOnSegment(
+    const Vec3& from, const Vec3& to, double margin, TriangleList& found) const noexcept = 0;
+
+  virtual EngineKind Kind() const noexcept = 0;
+  /// Bytes held beyond the surface's own points and triangles.
+  virtual std::size_t MemoryBytes() const noexcept = 0;
+};
+}
+
+#endif

@@ -1,0 +1,13 @@
+#ifndef Vec3_h
+#define Vec3_h
+
+#include <array>
+
+namespace haptics
+{
+/// A point or vector in three dimensions; the frame and unit are named where one is used.
+/// `data()` is the `double[3]` that VTK speaks. Inside the module the arithmetic is GLM's.
+using Vec3 = std::array<double, 3>;
+}
+
+#endif
