@@ -1,0 +1,429 @@
+#include "vtkGodObjectActor.h"
+
+#include "vtkActor.h"
+#include "vtkCamera.h"
+#include "vtkCellArray.h"
+#include "vtkConeSource.h"
+#include "vtkCylinderSource.h"
+#include "vtkMath.h"
+#include "vtkMatrix4x4.h"
+#include "vtkObjectFactory.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkProperty.h"
+#include "vtkRenderer.h"
+#include "vtkShaderProperty.h"
+#include "vtkSphereSource.h"
+
+#include <algorithm>
+#include <cmath>
+
+vtkStandardNewMacro(vtkGodObjectActor);
+
+namespace
+{
+constexpr double HapticInterfacePointRadius = 0.75; // all in radii of the god-object
+constexpr double SpringRadius = 0.16;
+constexpr double ShaftRadius = 0.3;
+constexpr double TipRadius = 0.75;
+constexpr double TipLength = 2.0;
+constexpr double ReferenceArrowLength = 12.0;
+
+bool AllFinite(const double v[3])
+{
+  return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
+}
+
+void Give(vtkActor* part, vtkAlgorithmOutput* geometry, double red, double green, double blue)
+{
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(geometry);
+  mapper->ScalarVisibilityOff();
+  part->SetMapper(mapper);
+  part->PickableOff();
+  vtkProperty* property = part->GetProperty();
+  property->SetColor(red, green, blue);
+  property->SetAmbient(0.25);
+  property->SetDiffuse(0.8);
+  property->SetSpecular(0.4);
+  property->SetSpecularPower(40.0);
+}
+
+/// Nearer than everything that is not drawn so, in unchanged order among what is.
+void DrawThroughSurfaces(vtkActor* part)
+{
+  part->GetShaderProperty()->AddFragmentShaderReplacement(
+    "//VTK::Depth::Impl", true, "gl_FragDepth = 0.001 * gl_FragCoord.z;\n", false);
+}
+
+/// Places a part whose geometry is 1 long in y, from the origin, and 1 in radius.
+void Stretch(vtkActor* part, const double from[3], const double unit[3], double length,
+  double radius)
+{
+  double side[3];
+  double other[3];
+  vtkMath::Perpendiculars(unit, side, other, 0.0);
+  vtkNew<vtkMatrix4x4> matrix;
+  for (int i = 0; i < 3; ++i)
+  {
+    matrix->SetElement(i, 0, radius * other[i]);
+    matrix->SetElement(i, 1, length * unit[i]);
+    matrix->SetElement(i, 2, radius * side[i]);
+    matrix->SetElement(i, 3, from[i]);
+  }
+  part->SetUserMatrix(matrix);
+}
+}
+
+vtkGodObjectActor::vtkGodObjectActor()
+{
+  this->PickableOff();
+  this->UseBoundsOff();
+
+  vtkNew<vtkSphereSource> sphere;
+  sphere->SetRadius(1.0);
+  sphere->SetThetaResolution(36);
+  sphere->SetPhiResolution(24);
+  Give(this->GodObjectPart, sphere->GetOutputPort(), 1.0, 0.78, 0.18);
+  Give(this->HapticInterfacePointPart, sphere->GetOutputPort(), 0.55, 0.80, 1.0);
+  this->HapticInterfacePointPart->GetProperty()->SetOpacity(0.55);
+  this->HapticInterfacePointPart->GetProperty()->BackfaceCullingOn();
+
+  vtkNew<vtkCylinderSource> bar;
+  bar->SetCenter(0.0, 0.5, 0.0);
+  bar->SetRadius(1.0);
+  bar->SetResolution(24);
+  Give(this->SpringPart, bar->GetOutputPort(), 0.85, 0.92, 1.0);
+  Give(this->ForceShaftPart, bar->GetOutputPort(), 0.92, 0.22, 0.15);
+  DrawThroughSurfaces(this->HapticInterfacePointPart);
+  DrawThroughSurfaces(this->SpringPart);
+
+  vtkNew<vtkConeSource> tip;
+  tip->SetDirection(0.0, 1.0, 0.0);
+  tip->SetCenter(0.0, 0.5, 0.0);
+  tip->SetResolution(32);
+  tip->SetRadius(1.0);
+  Give(this->ForceTipPart, tip->GetOutputPort(), 0.92, 0.22, 0.15);
+  this->ForceTipPart->SetProperty(this->ForceShaftPart->GetProperty());
+
+  vtkNew<vtkPolyDataMapper> trailMapper;
+  trailMapper->SetInputData(this->Trail);
+  this->TrailPart->SetMapper(trailMapper);
+  this->TrailPart->PickableOff();
+  vtkProperty* trail = this->TrailPart->GetProperty();
+  trail->SetColor(1.0, 0.62, 0.1);
+  trail->SetLineWidth(3.0f);
+  trail->RenderLinesAsTubesOn();
+}
+
+vtkGodObjectActor::~vtkGodObjectActor() = default;
+
+void vtkGodObjectActor::SetFinite(double target[3], const double value[3], const char* name)
+{
+  if (!AllFinite(value))
+  {
+    vtkErrorMacro(<< name << " (" << value[0] << ", " << value[1] << ", " << value[2]
+                  << ") is not finite; the last one stays. Check where it comes from.");
+    return;
+  }
+  if (!std::equal(value, value + 3, target))
+  {
+    std::copy(value, value + 3, target);
+    this->Modified();
+  }
+}
+
+void vtkGodObjectActor::SetHapticInterfacePoint(const double point[3])
+{
+  this->SetFinite(this->HapticInterfacePoint, point, "The haptic interface point");
+}
+
+void vtkGodObjectActor::SetHapticInterfacePoint(double x, double y, double z)
+{
+  const double point[3] = { x, y, z };
+  this->SetHapticInterfacePoint(point);
+}
+
+void vtkGodObjectActor::SetGodObject(const double point[3])
+{
+  this->SetFinite(this->GodObject, point, "The god-object");
+}
+
+void vtkGodObjectActor::SetGodObject(double x, double y, double z)
+{
+  const double point[3] = { x, y, z };
+  this->SetGodObject(point);
+}
+
+void vtkGodObjectActor::SetForce(const double force[3])
+{
+  this->SetFinite(this->Force, force, "The force");
+}
+
+void vtkGodObjectActor::SetForce(double x, double y, double z)
+{
+  const double force[3] = { x, y, z };
+  this->SetForce(force);
+}
+
+void vtkGodObjectActor::AddTrailPoint(const double point[3], bool touching)
+{
+  if (!this->ShowTrail)
+  {
+    return;
+  }
+  if (!AllFinite(point))
+  {
+    vtkErrorMacro("A trail point (" << point[0] << ", " << point[1] << ", " << point[2]
+                                    << ") is not finite; it was left out.");
+    return;
+  }
+  // Forgetting half at once keeps the cost of an added point constant.
+  if (this->TrailPoints.size() >= static_cast<std::size_t>(this->MaximumTrailPoints))
+  {
+    const auto kept = static_cast<std::ptrdiff_t>(this->MaximumTrailPoints / 2);
+    this->TrailPoints.erase(this->TrailPoints.begin(), this->TrailPoints.end() - kept);
+  }
+  this->TrailPoints.push_back({ { point[0], point[1], point[2] }, touching });
+  this->TrailChanged = true;
+  this->Modified();
+}
+
+void vtkGodObjectActor::ClearTrail()
+{
+  if (!this->TrailPoints.empty())
+  {
+    this->TrailPoints.clear();
+    this->TrailChanged = true;
+    this->Modified();
+  }
+}
+
+void vtkGodObjectActor::BuildTrail()
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkCellArray> lines;
+  std::vector<vtkIdType> line;
+  const auto endLine = [&]() {
+    if (line.size() > 1)
+    {
+      lines->InsertNextCell(static_cast<vtkIdType>(line.size()), line.data());
+    }
+    line.clear();
+  };
+  for (const TrailPoint& point : this->TrailPoints)
+  {
+    if (point.Touching)
+    {
+      line.push_back(points->InsertNextPoint(point.Position));
+    }
+    else
+    {
+      endLine();
+    }
+  }
+  endLine();
+  this->Trail->SetPoints(points);
+  this->Trail->SetLines(lines);
+  this->TrailChanged = false;
+}
+
+double vtkGodObjectActor::RadiusInWorld(vtkViewport* viewport) const
+{
+  vtkRenderer* renderer = vtkRenderer::SafeDownCast(viewport);
+  if (this->SizeInWorld || !renderer)
+  {
+    return this->Size;
+  }
+  vtkCamera* camera = renderer->GetActiveCamera();
+  if (camera->GetParallelProjection())
+  {
+    return this->Size * 2.0 * camera->GetParallelScale();
+  }
+  double toGodObject[3];
+  vtkMath::Subtract(this->GodObject, camera->GetPosition(), toGodObject);
+  double depth = vtkMath::Dot(toGodObject, camera->GetDirectionOfProjection());
+  if (depth <= 0.0) // behind the camera, out of sight
+  {
+    depth = camera->GetDistance();
+  }
+  const double halfAngle = 0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle());
+  return this->Size * 2.0 * depth * std::tan(halfAngle);
+}
+
+void vtkGodObjectActor::ArrangeForce(double radius)
+{
+  double direction[3] = { this->Force[0], this->Force[1], this->Force[2] };
+  const double force = vtkMath::Normalize(direction);
+  const double length = ReferenceArrowLength * radius * force / this->ReferenceForce;
+  const bool shown = this->ShowForce && length > 0.0;
+  this->ForceShaftPart->SetVisibility(shown);
+  this->ForceTipPart->SetVisibility(shown);
+  if (!shown)
+  {
+    return;
+  }
+  // A short arrow is all tip, and thinner.
+  const double tip = std::min(TipLength * radius, 0.6 * length);
+  const double thickness = tip / TipLength;
+  double base[3];
+  for (int i = 0; i < 3; ++i)
+  {
+    base[i] = this->GodObject[i] + (length - tip) * direction[i];
+  }
+  Stretch(this->ForceShaftPart, this->GodObject, direction, length - tip, ShaftRadius * thickness);
+  Stretch(this->ForceTipPart, base, direction, tip, TipRadius * thickness);
+}
+
+void vtkGodObjectActor::Arrange(vtkViewport* viewport)
+{
+  const double radius = this->RadiusInWorld(viewport);
+  const double up[3] = { 0.0, 1.0, 0.0 };
+  Stretch(this->GodObjectPart, this->GodObject, up, radius, radius);
+
+  double spring[3];
+  vtkMath::Subtract(this->GodObject, this->HapticInterfacePoint, spring);
+  const double length = vtkMath::Normalize(spring);
+  const bool apart = this->ShowHapticInterfacePoint && this->Touching && length > 0.0;
+  this->HapticInterfacePointPart->SetVisibility(apart);
+  this->SpringPart->SetVisibility(apart);
+  if (apart)
+  {
+    const double ghost = HapticInterfacePointRadius * radius;
+    Stretch(this->HapticInterfacePointPart, this->HapticInterfacePoint, up, ghost, ghost);
+    Stretch(
+      this->SpringPart, this->HapticInterfacePoint, spring, length, SpringRadius * radius);
+  }
+  this->ArrangeForce(radius);
+
+  if (this->TrailChanged)
+  {
+    this->BuildTrail();
+  }
+  this->TrailPart->SetVisibility(this->ShowTrail && this->Trail->GetNumberOfLines() > 0);
+}
+
+std::vector<vtkActor*> vtkGodObjectActor::Parts() const
+{
+  return { this->GodObjectPart, this->HapticInterfacePointPart, this->SpringPart,
+    this->ForceShaftPart, this->ForceTipPart, this->TrailPart };
+}
+
+int vtkGodObjectActor::RenderOpaqueGeometry(vtkViewport* viewport)
+{
+  this->Arrange(viewport);
+  int rendered = 0;
+  for (vtkActor* part : this->Parts())
+  {
+    if (part->GetVisibility())
+    {
+      rendered += part->RenderOpaqueGeometry(viewport);
+    }
+  }
+  return rendered;
+}
+
+int vtkGodObjectActor::RenderTranslucentPolygonalGeometry(vtkViewport* viewport)
+{
+  int rendered = 0;
+  for (vtkActor* part : this->Parts())
+  {
+    if (part->GetVisibility())
+    {
+      rendered += part->RenderTranslucentPolygonalGeometry(viewport);
+    }
+  }
+  return rendered;
+}
+
+vtkTypeBool vtkGodObjectActor::HasTranslucentPolygonalGeometry()
+{
+  const std::vector<vtkActor*> parts = this->Parts();
+  return std::any_of(parts.begin(), parts.end(),
+    [](vtkActor* part) { return part->HasTranslucentPolygonalGeometry() != 0; });
+}
+
+void vtkGodObjectActor::ReleaseGraphicsResources(vtkWindow* window)
+{
+  for (vtkActor* part : this->Parts())
+  {
+    part->ReleaseGraphicsResources(window);
+  }
+  this->Superclass::ReleaseGraphicsResources(window);
+}
+
+double* vtkGodObjectActor::GetBounds()
+{
+  for (int i = 0; i < 3; ++i)
+  {
+    this->Bounds[2 * i] = std::min(this->HapticInterfacePoint[i], this->GodObject[i]);
+    this->Bounds[2 * i + 1] = std::max(this->HapticInterfacePoint[i], this->GodObject[i]);
+  }
+  return this->Bounds;
+}
+
+void vtkGodObjectActor::IncludeInClippingRange(vtkRenderer* renderer)
+{
+  vtkCamera* camera = renderer->GetActiveCamera();
+  const double reach = this->RadiusInWorld(renderer) * (ReferenceArrowLength + 1.0);
+  double range[2];
+  camera->GetClippingRange(range);
+  for (const double* point : { this->HapticInterfacePoint, this->GodObject })
+  {
+    double toPoint[3];
+    vtkMath::Subtract(point, camera->GetPosition(), toPoint);
+    const double depth = vtkMath::Dot(toPoint, camera->GetDirectionOfProjection());
+    range[1] = std::max(range[1], depth + reach);
+    // The near plane stays in front of the camera, and far enough for the depth buffer's digits.
+    range[0] = std::min(range[0], std::max(depth - reach, 0.001 * range[1]));
+  }
+  camera->SetClippingRange(range);
+}
+
+vtkProperty* vtkGodObjectActor::GetGodObjectProperty()
+{
+  return this->GodObjectPart->GetProperty();
+}
+
+vtkProperty* vtkGodObjectActor::GetHapticInterfacePointProperty()
+{
+  return this->HapticInterfacePointPart->GetProperty();
+}
+
+vtkProperty* vtkGodObjectActor::GetSpringProperty()
+{
+  return this->SpringPart->GetProperty();
+}
+
+vtkProperty* vtkGodObjectActor::GetForceProperty()
+{
+  return this->ForceShaftPart->GetProperty();
+}
+
+vtkProperty* vtkGodObjectActor::GetTrailProperty()
+{
+  return this->TrailPart->GetProperty();
+}
+
+void vtkGodObjectActor::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  const auto print = [&](const char* name, const double v[3]) {
+    os << indent << name << ": (" << v[0] << ", " << v[1] << ", " << v[2] << ")\n";
+  };
+  print("HapticInterfacePoint [world unit]", this->HapticInterfacePoint);
+  print("GodObject [world unit]", this->GodObject);
+  print("Force [N]", this->Force);
+  os << indent << "Touching: " << (this->Touching ? "On" : "Off") << "\n";
+  os << indent << "Size [" << (this->SizeInWorld ? "world unit" : "view heights")
+     << "]: " << this->Size << "\n";
+  os << indent << "ReferenceForce [N]: " << this->ReferenceForce << "\n";
+  os << indent << "ShowHapticInterfacePoint: " << (this->ShowHapticInterfacePoint ? "On" : "Off")
+     << "\n";
+  os << indent << "ShowForce: " << (this->ShowForce ? "On" : "Off") << "\n";
+  os << indent << "ShowTrail: " << (this->ShowTrail ? "On" : "Off") << "\n";
+  os << indent << "MaximumTrailPoints: " << this->MaximumTrailPoints << "\n";
+  os << indent << "Trail points: " << this->TrailPoints.size() << "\n";
+}

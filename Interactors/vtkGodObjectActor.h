@@ -1,0 +1,213 @@
+/**
+ * @class   vtkGodObjectActor
+ * @brief   Shows where the hand is, where the surface holds it back, and how strongly.
+ *
+ * The parts, all in the world frame:
+ * - the god-object, a sphere on the surface;
+ * - the haptic interface point (HIP), a paler sphere where the device is: usually inside the
+ *   surface, so it and the spring are drawn through whatever lies in front of them;
+ * - the spring, a thin bar between the two;
+ * - the force, an arrow at the god-object;
+ * - the trail (off by default), the last points that the god-object went through.
+ *
+ * Sizes are fractions of the view's height, so that a terrain of 30 km and a gear of 3 mm look
+ * alike and zooming in does not hide the surface; see SetSizeInWorld() for the other way.
+ *
+ * The prop is not pickable, takes no part in the bounds of a scene (so that ResetCamera() frames
+ * the surfaces, not the hand) and is never touched. Because of that the renderer's clipping range
+ * does not know it: call IncludeInClippingRange() after each reset of the range.
+ * vtkInteractorStyleHaptic does so.
+ *
+ * A vtkHapticScene keeps one up to date; it can be driven by hand as well. GUI thread.
+ *
+ * @sa vtkHapticScene
+ */
+#ifndef vtkGodObjectActor_h
+#define vtkGodObjectActor_h
+
+#include "vtkHapticsInteractorsModule.h"
+#include "vtkNew.h"
+#include "vtkProp3D.h"
+
+#include <vector>
+
+class vtkActor;
+class vtkPolyData;
+class vtkProperty;
+class vtkRenderer;
+
+class VTKHAPTICSINTERACTORS_EXPORT vtkGodObjectActor : public vtkProp3D
+{
+public:
+  static vtkGodObjectActor* New();
+  vtkTypeMacro(vtkGodObjectActor, vtkProp3D);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * Where the device is, in the world frame [world unit]. Default the origin. A coordinate that is
+   * not finite is refused with an error and changes nothing.
+   */
+  void SetHapticInterfacePoint(double x, double y, double z);
+  void SetHapticInterfacePoint(const double point[3]);
+  vtkGetVector3Macro(HapticInterfacePoint, double);
+  ///@}
+
+  ///@{
+  /**
+   * Where the surface holds the hand back, in the world frame [world unit]. Default the origin.
+   * Refuses what is not finite, as SetHapticInterfacePoint() does.
+   */
+  void SetGodObject(double x, double y, double z);
+  void SetGodObject(const double point[3]);
+  vtkGetVector3Macro(GodObject, double);
+  ///@}
+
+  ///@{
+  /**
+   * Force on the hand [N] along the world's axes. Default none, which hides the arrow. Refuses what
+   * is not finite.
+   */
+  void SetForce(double x, double y, double z);
+  void SetForce(const double force[3]);
+  vtkGetVector3Macro(Force, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether a surface holds the god-object back. Spring and HIP are only shown when it is. Default
+   * off.
+   */
+  vtkSetMacro(Touching, bool);
+  vtkGetMacro(Touching, bool);
+  vtkBooleanMacro(Touching, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Radius of the god-object's sphere; the other parts are in proportion. A fraction of the view's
+   * height, or, with SizeInWorld, a length [world unit]. Default 0.012; greater than 0.
+   */
+  vtkSetClampMacro(Size, double, 1e-300, VTK_DOUBLE_MAX);
+  vtkGetMacro(Size, double);
+  ///@}
+
+  ///@{
+  /**
+   * Off (the default): Size is a fraction of the view's height. On: it is a length in the world,
+   * so that things grow when the camera comes closer.
+   */
+  vtkSetMacro(SizeInWorld, bool);
+  vtkGetMacro(SizeInWorld, bool);
+  vtkBooleanMacro(SizeInWorld, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Force whose arrow is 12 times as long as Size [N]; arrows are proportional to the force.
+   * Default 3.3, the limit of common devices; greater than 0.
+   */
+  vtkSetClampMacro(ReferenceForce, double, 1e-300, VTK_DOUBLE_MAX);
+  vtkGetMacro(ReferenceForce, double);
+  ///@}
+
+  ///@{
+  /** Whether each part is shown. All on by default but the trail. */
+  vtkSetMacro(ShowHapticInterfacePoint, bool);
+  vtkGetMacro(ShowHapticInterfacePoint, bool);
+  vtkBooleanMacro(ShowHapticInterfacePoint, bool);
+  vtkSetMacro(ShowForce, bool);
+  vtkGetMacro(ShowForce, bool);
+  vtkBooleanMacro(ShowForce, bool);
+  vtkSetMacro(ShowTrail, bool);
+  vtkGetMacro(ShowTrail, bool);
+  vtkBooleanMacro(ShowTrail, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Points that the trail keeps; when full the oldest half is forgotten. Default 4000; 2 to
+   * 1,000,000.
+   */
+  vtkSetClampMacro(MaximumTrailPoints, int, 2, 1000000);
+  vtkGetMacro(MaximumTrailPoints, int);
+  ///@}
+
+  /**
+   * Adds a point to the trail [world unit]; `touching` false leaves a gap, so that lines are drawn
+   * only where the surface was touched. Does nothing while ShowTrail is off. Refuses what is not
+   * finite.
+   */
+  void AddTrailPoint(const double point[3], bool touching);
+  void ClearTrail();
+
+  ///@{
+  /** How each part looks. */
+  vtkProperty* GetGodObjectProperty();
+  vtkProperty* GetHapticInterfacePointProperty();
+  vtkProperty* GetSpringProperty();
+  vtkProperty* GetForceProperty();
+  vtkProperty* GetTrailProperty();
+  ///@}
+
+  /** Widens the clipping range of the renderer's camera to hold the HIP, god-object and force. */
+  void IncludeInClippingRange(vtkRenderer* renderer);
+
+  /**
+   * Bounds of the HIP and the god-object, in the world frame [world unit]. UseBounds is off, so a
+   * renderer ignores them.
+   */
+  double* GetBounds() override;
+
+  ///@{
+  /** The rendering protocol of vtkProp. */
+  int RenderOpaqueGeometry(vtkViewport* viewport) override;
+  int RenderTranslucentPolygonalGeometry(vtkViewport* viewport) override;
+  vtkTypeBool HasTranslucentPolygonalGeometry() override;
+  void ReleaseGraphicsResources(vtkWindow* window) override;
+  ///@}
+
+protected:
+  vtkGodObjectActor();
+  ~vtkGodObjectActor() override;
+
+private:
+  vtkGodObjectActor(const vtkGodObjectActor&) = delete;
+  void operator=(const vtkGodObjectActor&) = delete;
+
+  void SetFinite(double target[3], const double value[3], const char* name);
+  double RadiusInWorld(vtkViewport* viewport) const;
+  void Arrange(vtkViewport* viewport);
+  void ArrangeForce(double radius);
+  void BuildTrail();
+  std::vector<vtkActor*> Parts() const;
+
+  double HapticInterfacePoint[3] = { 0.0, 0.0, 0.0 };
+  double GodObject[3] = { 0.0, 0.0, 0.0 };
+  double Force[3] = { 0.0, 0.0, 0.0 };
+  bool Touching = false;
+  double Size = 0.012;
+  bool SizeInWorld = false;
+  double ReferenceForce = 3.3;
+  bool ShowHapticInterfacePoint = true;
+  bool ShowForce = true;
+  bool ShowTrail = false;
+  int MaximumTrailPoints = 4000;
+
+  vtkNew<vtkActor> GodObjectPart;
+  vtkNew<vtkActor> HapticInterfacePointPart;
+  vtkNew<vtkActor> SpringPart;
+  vtkNew<vtkActor> ForceShaftPart;
+  vtkNew<vtkActor> ForceTipPart;
+  vtkNew<vtkActor> TrailPart;
+  vtkNew<vtkPolyData> Trail;
+  struct TrailPoint
+  {
+    double Position[3];
+    bool Touching;
+  };
+  std::vector<TrailPoint> TrailPoints;
+  bool TrailChanged = false;
+};
+
+#endif
