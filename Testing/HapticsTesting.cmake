@@ -1,0 +1,90 @@
+# Functions that add tests.
+#
+#   haptics_add_gtest(<name> <source>... LIBRARIES <target>... [SERIAL])
+#     A GoogleTest program; ctest shows each of its cases as <name>.<suite>.<case>.
+#     SERIAL: nothing else runs beside it, for tests that measure time.
+#
+#   haptics_add_python_test(<name> <script> [ARGS <arg>...] [PVPYTHON] [SERIAL])
+#     A script run by python3, or by pvpython, that finds the package vtkhaptics and fails with
+#     a non-zero exit. PVPYTHON needs the ParaView build.
+#
+# C++ image tests use VTK's own vtk_add_test_cxx() and vtk_test_cxx_executable().
+
+# AddressSanitizer finds leaks in the graphics driver that are not ours; its other findings stay on.
+set(haptics_test_environment
+  "ASAN_OPTIONS=detect_leaks=0"
+  "LD_LIBRARY_PATH=${CMAKE_LIBRARY_OUTPUT_DIRECTORY}:$ENV{LD_LIBRARY_PATH}"
+  "PYTHONPATH=${haptics_python_dir}"
+  "PYTHONDONTWRITEBYTECODE=1"
+  "HAPTICS_SOURCE_DIR=${PROJECT_SOURCE_DIR}"
+  "HAPTICS_TEST_OUTPUT=${_vtk_build_TEST_OUTPUT_DIRECTORY}")
+
+function (haptics_add_gtest name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "SERIAL" "" "LIBRARIES")
+  add_executable("${name}" ${arg_UNPARSED_ARGUMENTS})
+  target_link_libraries("${name}" PRIVATE ${arg_LIBRARIES} GTest::gtest_main)
+  target_compile_options("${name}" PRIVATE -Wall -Wextra)
+  # VTK's factories (rendering, for one) register themselves only in programs that ask for it.
+  set(vtk_modules ${arg_LIBRARIES})
+  list(FILTER vtk_modules INCLUDE REGEX "^VTK::")
+  if (vtk_modules)
+    vtk_module_autoinit(TARGETS "${name}" MODULES ${vtk_modules})
+  endif ()
+  gtest_discover_tests("${name}"
+    TEST_PREFIX       "${name}."
+    DISCOVERY_MODE    PRE_TEST
+    WORKING_DIRECTORY "${_vtk_build_TEST_OUTPUT_DIRECTORY}"
+    PROPERTIES
+      LABELS      "haptics"
+      RUN_SERIAL  "${arg_SERIAL}"
+      ENVIRONMENT "HAPTICS_SOURCE_DIR=${PROJECT_SOURCE_DIR}")
+endfunction ()
+
+function (haptics_add_python_test name script)
+  cmake_parse_arguments(PARSE_ARGV 2 arg "PVPYTHON;SERIAL" "" "ARGS")
+  if (arg_PVPYTHON)
+    set(interpreter "$<TARGET_FILE:ParaView::pvpython>" --force-offscreen-rendering)
+  else ()
+    set(interpreter "${Python3_EXECUTABLE}")
+  endif ()
+  get_filename_component(script "${script}" ABSOLUTE)
+  add_test(NAME "${name}"
+    COMMAND ${interpreter} "${script}" ${arg_ARGS}
+    WORKING_DIRECTORY "${_vtk_build_TEST_OUTPUT_DIRECTORY}")
+  set_tests_properties("${name}" PROPERTIES
+    LABELS      "haptics"
+    RUN_SERIAL  "${arg_SERIAL}"
+    ENVIRONMENT "${haptics_test_environment}")
+endfunction ()
+
+# Installs into a scratch prefix, then configures, builds and runs Consumer/ against that alone.
+function (haptics_add_consumer_test)
+  set(prefix "${CMAKE_BINARY_DIR}/Testing/Consumer/install")
+  add_test(NAME Consumer.Install
+    COMMAND "${CMAKE_COMMAND}" --install "${CMAKE_BINARY_DIR}" --prefix "${prefix}")
+  add_test(NAME Consumer.BuildAndRun
+    COMMAND "${CMAKE_CTEST_COMMAND}"
+      --build-and-test "${CMAKE_CURRENT_SOURCE_DIR}/Consumer"
+                       "${CMAKE_BINARY_DIR}/Testing/Consumer/build"
+      --build-generator "${CMAKE_GENERATOR}"
+      --build-options
+        "-DVTKHaptics_ROOT=${prefix}"
+        "-DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE}"
+        "-DCMAKE_CXX_FLAGS=${CMAKE_CXX_FLAGS}"
+        "-DPython3_EXECUTABLE=${Python3_EXECUTABLE}"
+      --test-command consumer)
+  set_tests_properties(Consumer.Install PROPERTIES FIXTURES_SETUP haptics_install)
+  set_tests_properties(Consumer.BuildAndRun PROPERTIES FIXTURES_REQUIRED haptics_install)
+  set_tests_properties(Consumer.Install Consumer.BuildAndRun PROPERTIES LABELS "haptics")
+  if (haptics_python_destination)
+    # From the root folder, without LD_LIBRARY_PATH: only the installed files can answer.
+    add_test(NAME Consumer.InstalledPython
+      COMMAND "${Python3_EXECUTABLE}" -c
+        "import vtkhaptics; print(vtkhaptics.__file__); vtkhaptics.vtkGodObjectFilter()"
+      WORKING_DIRECTORY "/")
+    set_tests_properties(Consumer.InstalledPython PROPERTIES
+      FIXTURES_REQUIRED haptics_install
+      LABELS            "haptics"
+      ENVIRONMENT       "PYTHONPATH=${prefix}/${haptics_python_destination};LD_LIBRARY_PATH=")
+  endif ()
+endfunction ()
