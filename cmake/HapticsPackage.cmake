@@ -2,19 +2,22 @@
 include(CMakePackageConfigHelpers)
 
 set(haptics_package_dir "${CMAKE_BINARY_DIR}/${haptics_cmake_destination}")
-configure_file("${CMAKE_CURRENT_LIST_DIR}/VTKHaptics-config.cmake.in"
-  "${haptics_package_dir}/VTKHaptics-config.cmake" @ONLY)
-write_basic_package_version_file("${haptics_package_dir}/VTKHaptics-config-version.cmake"
+configure_file("${CMAKE_CURRENT_LIST_DIR}/VTKHapticsConfig.cmake.in"
+  "${haptics_package_dir}/VTKHapticsConfig.cmake" @ONLY)
+write_basic_package_version_file("${haptics_package_dir}/VTKHapticsConfigVersion.cmake"
   COMPATIBILITY SameMinorVersion)
 configure_file("${CMAKE_CURRENT_LIST_DIR}/HapticsFindVTK.cmake"
   "${haptics_package_dir}/HapticsFindVTK.cmake" COPYONLY)
 install(
   FILES
-    "${haptics_package_dir}/VTKHaptics-config.cmake"
-    "${haptics_package_dir}/VTKHaptics-config-version.cmake"
+    "${haptics_package_dir}/VTKHapticsConfig.cmake"
+    "${haptics_package_dir}/VTKHapticsConfigVersion.cmake"
     "${haptics_package_dir}/HapticsFindVTK.cmake"
   DESTINATION "${haptics_cmake_destination}")
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE"
   DESTINATION "${CMAKE_INSTALL_DATAROOTDIR}/doc/vtkhaptics")
 
+if (HAPTICS_BUILD_PARAVIEW_PLUGIN)
+  set(haptics_plugin_dir "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}/${PARAVIEW_PLUGIN_SUBDIR}/Haptics")
+endif ()
 configure_file("${CMAKE_CURRENT_LIST_DIR}/env.sh.in" "${CMAKE_BINARY_DIR}/env.sh" @ONLY)
