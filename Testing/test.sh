@@ -1,0 +1,49 @@
+#!/bin/sh
+# Sets up, builds and runs every test. The exit status is zero only if all of them passed.
+set -eu
+
+usage()
+{
+  cat <<'END'
+Usage: sh Testing/test.sh [--vtk] [--help] [CTEST-ARGUMENT...]
+
+Installs what is missing, builds into build/ and runs the tests, on a virtual display where there is
+none. Further arguments go to ctest: "-R Core" runs the tests with Core in their name.
+
+  --vtk   against VTK alone, without the ParaView plugin (see Testing/setup.sh --help)
+END
+}
+
+cd "$(dirname "$0")/.."
+setup_arguments=
+if [ "${1:-}" = --vtk ]; then
+  setup_arguments=--vtk
+  shift
+fi
+case ${1:-} in
+  -h|--help) usage; exit 0 ;;
+esac
+
+sh Testing/setup.sh $setup_arguments
+
+# Open MPI, which pvserver and pvpython start, refuses to run as root (as in a container) unless told.
+if [ "$(id -u)" -eq 0 ]; then
+  export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+fi
+display=
+if [ -z "${DISPLAY:-}" ]; then
+  display='xvfb-run -a -s "-screen 0 1280x1024x24"'
+  if ! command -v xvfb-run >/dev/null; then
+    echo "test.sh: no display, and xvfb-run is missing: install xvfb and xauth." >&2
+    exit 1
+  fi
+fi
+
+echo "==> Testing${display:+ on a virtual display}"
+status=0
+eval "$display" ctest --test-dir build --output-on-failure --no-label-summary --no-tests=error \
+  -j "$(nproc)" '"$@"' || status=$?
+if [ "$status" -ne 0 ]; then
+  echo "==> Tests failed; all output: build/Testing/Temporary/LastTest.log" >&2
+fi
+exit "$status"
