@@ -1,7 +1,7 @@
 #ifndef DeviceChannel_h
 #define DeviceChannel_h
 
-#include "vtkHapticDevicesModule.h"
+#include "vtkHapticsDevicesModule.h"
 
 #include <array>
 #include <cstdint>
@@ -19,7 +19,7 @@ struct DeviceSample
 ///
 /// A vtkHapticDevice makes one when it opens. The two calls come in this order, once a tick, from
 /// the servo thread alone. Neither allocates, locks or logs.
-class VTKHAPTICDEVICES_EXPORT DeviceChannel
+class VTKHAPTICSDEVICES_EXPORT DeviceChannel
 {
 public:
   virtual ~DeviceChannel() = default;

@@ -1,0 +1,137 @@
+/**
+ * @class   vtkHapticDevice
+ * @brief   a device that tells where a hand is and pulls on it: position in, force out
+ *
+ * The abstract face of every haptic device. It opens and closes the device and tells its state and
+ * limits; the positions and forces themselves go through a plain channel that the servo thread
+ * uses (see haptics::DeviceChannel and vtkHapticServo), never through this object.
+ *
+ * All positions, forces and limits are in the device frame, in metres, newtons and seconds. What
+ * the axes mean is the device's own; vtkHapticServo's workspace transform maps them to the world.
+ *
+ * Every method is for the GUI thread (the one that made the object). StateChangedEvent is invoked
+ * on it whenever the state changes; a loss that the servo thread meets is noticed by Update().
+ *
+ * @sa vtkSimulatedHapticDevice vtkHapticServo
+ */
+#ifndef vtkHapticDevice_h
+#define vtkHapticDevice_h
+
+#include "vtkCommand.h"
+#include "vtkHapticsDevicesModule.h"
+#include "vtkObject.h"
+
+#include <memory>
+#include <string>
+
+namespace haptics
+{
+class DeviceChannel;
+class MonitoredChannel;
+}
+
+class VTKHAPTICSDEVICES_EXPORT vtkHapticDevice : public vtkObject
+{
+public:
+  vtkAbstractTypeMacro(vtkHapticDevice, vtkObject);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /// What a device may be in. Later devices may add states after the last.
+  enum DeviceState
+  {
+    Closed,  ///< not in use; what every device starts as
+    Opening, ///< being found, powered or calibrated
+    Ready,   ///< answers and takes forces
+    Faulted  ///< could not be opened or was lost: see GetErrorMessage(); Close() or Open() again
+  };
+
+  /// Invoked after GetState() has changed. No call data.
+  enum DeviceEvents
+  {
+    StateChangedEvent = vtkCommand::UserEvent + 4100
+  };
+
+  /**
+   * Open the device and make it ready. Returns true when it is ready or already was; else the
+   * cause is in GetErrorMessage() and, through vtkErrorMacro, in VTK's error output.
+   */
+  virtual bool Open() = 0;
+
+  /**
+   * Let go of the device: no force from here on. Closing a closed device does nothing. A servo
+   * that still holds the channel reads "lost" from it and stops; it is safe to close at any time.
+   */
+  virtual void Close() = 0;
+
+  /// Notice what happened on the servo thread: a device lost there becomes Faulted here. Cheap.
+  virtual void Update();
+
+  /// True from a successful Open() to Close() or a fault.
+  bool IsOpen() const { return this->State == Ready; }
+  ///@{
+  /// The state, as a number of DeviceState and as its English name.
+  int GetState() const { return this->State; }
+  const char* GetStateAsString() const;
+  ///@}
+  /// Why the device is Faulted or did not open, for people; empty where nothing is wrong.
+  const char* GetErrorMessage() const { return this->ErrorMessage.c_str(); }
+
+  ///@{
+  /**
+   * What the device can do. MaximumForce [N] and MaximumStiffness [N/m] are what it can hold
+   * without shaking; Damping [N s/m] is the viscous friction of its mechanics, 0 where it is not
+   * known. WorkspaceBounds [m] is (xmin, xmax, ymin, ymax, zmin, zmax), what the hand can reach.
+   */
+  vtkGetMacro(MaximumForce, double);
+  vtkGetMacro(MaximumStiffness, double);
+  vtkGetMacro(Damping, double);
+  vtkGetVector6Macro(WorkspaceBounds, double);
+  vtkGetMacro(NumberOfButtons, int);
+  ///@}
+
+  ///@{
+  /**
+   * What went between servo and device last: the position [m], the force asked for [N] and the
+   * buttons (bit i is set while button i is held). Zeros before the first tick after Open(); the
+   * last values after Close(). Never waits for the servo.
+   */
+  void GetPosition(double position[3]);
+  void GetForce(double force[3]);
+  unsigned int GetButtons();
+  ///@}
+
+  /**
+   * The servo thread's end of the device; null while the device is not open. A channel may outlive
+   * Close(): its Read() then returns false. C++ only.
+   */
+  std::shared_ptr<haptics::DeviceChannel> GetChannel() const;
+
+protected:
+  vtkHapticDevice();
+  ~vtkHapticDevice() override;
+
+  /// For Open(): takes the channel, forgets the error, becomes Ready.
+  void BecomeReady(std::shared_ptr<haptics::MonitoredChannel> channel);
+  /// For Open() and Update(): shuts the channel, keeps the message, reports it, becomes `state`.
+  void Fail(int state, const std::string& message);
+  /// For Close(): shuts the channel, becomes Closed.
+  void BecomeClosed();
+  /// Changes the state and tells it.
+  void SetState(int state);
+
+  double MaximumForce = 0.0;
+  double MaximumStiffness = 0.0;
+  double Damping = 0.0;
+  double WorkspaceBounds[6] = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+  int NumberOfButtons = 0;
+
+private:
+  vtkHapticDevice(const vtkHapticDevice&) = delete;
+  void operator=(const vtkHapticDevice&) = delete;
+
+  int State = Closed;
+  std::string ErrorMessage;
+  std::shared_ptr<haptics::MonitoredChannel> Channel;
+};
+
+#endif

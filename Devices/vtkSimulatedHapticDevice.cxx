@@ -1,0 +1,265 @@
+#include "vtkSimulatedHapticDevice.h"
+
+#include "LatestValue.h"
+#include "MonitoredChannel.h"
+#include "SimulatedPath.h"
+#include "SplinePath.h"
+#include "StrokePattern.h"
+
+#include "vtkCellArray.h"
+#include "vtkDataArray.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+/// The servo thread's end: a table of positions, or the point that the GUI thread set last.
+class vtkSimulatedHapticDevice::SimulatedChannel : public haptics::MonitoredChannel
+{
+public:
+  SimulatedChannel(bool led, haptics::SimulatedPath path, const haptics::DeviceSample& hand)
+    : Led(led)
+    , Path(std::move(path))
+    , Hand(hand)
+  {
+  }
+
+  void MoveHand(const haptics::DeviceSample& hand) { this->Hand.Publish(hand); }
+  bool IsLed() const { return this->Led; }
+  const haptics::SimulatedPath& GetPath() const { return this->Path; }
+
+protected:
+  bool ReadDevice(double time, haptics::DeviceSample& sample) noexcept override
+  {
+    this->Hand.Update();
+    sample = this->Hand.Get();
+    if (!this->Led)
+    {
+      sample.Position = this->Path.At(time);
+    }
+    return true;
+  }
+
+  // The hand is held by the motion: MonitoredChannel keeps the force, and nothing moves.
+  void WriteDevice(const std::array<double, 3>&) noexcept override {}
+
+private:
+  const bool Led;
+  const haptics::SimulatedPath Path;
+  haptics::LatestValue<haptics::DeviceSample> Hand;
+};
+
+vtkStandardNewMacro(vtkSimulatedHapticDevice);
+vtkCxxSetObjectMacro(vtkSimulatedHapticDevice, Path, vtkPolyData);
+
+namespace
+{
+/// The points to follow and, if the array is there, their times.
+bool ReadPolyData(vtkPolyData* data, std::vector<haptics::DevicePoint>& points,
+  std::vector<double>& times, std::string& error)
+{
+  if (!data || data->GetNumberOfPoints() == 0)
+  {
+    error = "The motion needs a path with points. Call SetPath() with one before Open().";
+    return false;
+  }
+  vtkCellArray* lines = data->GetLines();
+  const vtkIdType numberOfLines = lines ? lines->GetNumberOfCells() : 0;
+  if (numberOfLines > 1)
+  {
+    error = "The path has " + std::to_string(numberOfLines) +
+      " line cells, but a hand follows one. Join them, for instance with vtkStripper.";
+    return false;
+  }
+  vtkNew<vtkIdList> ids;
+  if (numberOfLines == 1)
+  {
+    lines->GetCellAtId(0, ids);
+  }
+  else
+  {
+    ids->SetNumberOfIds(data->GetNumberOfPoints());
+    for (vtkIdType i = 0; i < ids->GetNumberOfIds(); ++i)
+    {
+      ids->SetId(i, i);
+    }
+  }
+
+  vtkDataArray* time = data->GetPointData()->GetArray("Time");
+  if (time && time->GetNumberOfComponents() != 1)
+  {
+    error = "The path's point array Time has " + std::to_string(time->GetNumberOfComponents()) +
+      " components. It must have one, the time in seconds.";
+    return false;
+  }
+  for (vtkIdType i = 0; i < ids->GetNumberOfIds(); ++i)
+  {
+    haptics::DevicePoint point;
+    data->GetPoint(ids->GetId(i), point.data());
+    points.push_back(point);
+    if (time)
+    {
+      times.push_back(time->GetComponent(ids->GetId(i), 0));
+    }
+  }
+  return true;
+}
+}
+
+vtkSimulatedHapticDevice::vtkSimulatedHapticDevice()
+{
+  this->MaximumForce = 3.3;
+  this->MaximumStiffness = 1000.0;
+  this->Damping = 0.35;
+  this->NumberOfButtons = 2;
+  this->SetWorkspaceBounds(-0.08, 0.08, -0.06, 0.06, -0.035, 0.035);
+}
+
+vtkSimulatedHapticDevice::~vtkSimulatedHapticDevice()
+{
+  this->SetPath(nullptr);
+}
+
+bool vtkSimulatedHapticDevice::Open()
+{
+  if (this->IsOpen())
+  {
+    return true;
+  }
+  this->SetState(Opening);
+  haptics::SimulatedPath path;
+  std::string error;
+  if (this->Motion != Manual && !this->MakePath(path, error))
+  {
+    this->Fail(Closed, error);
+    return false;
+  }
+  this->Simulated = std::make_shared<SimulatedChannel>(this->Motion == Manual, std::move(path),
+    haptics::DeviceSample{ this->ManualPosition, this->ManualButtons });
+  this->BecomeReady(this->Simulated);
+  return true;
+}
+
+void vtkSimulatedHapticDevice::Close()
+{
+  this->BecomeClosed();
+}
+
+bool vtkSimulatedHapticDevice::MakePath(haptics::SimulatedPath& path, std::string& error)
+{
+  std::vector<haptics::DevicePoint> points;
+  std::vector<double> times;
+  if (this->Motion == Stroke)
+  {
+    haptics::StrokePattern pattern;
+    std::copy(this->StrokeBounds, this->StrokeBounds + 6, pattern.Bounds.begin());
+    pattern.Axis = this->StrokeAxis;
+    pattern.Depth = this->PressDepth;
+    pattern.Clearance = this->StrokeClearance;
+    pattern.Inset = this->StrokeInset;
+    pattern.NumberOfStrokes = this->NumberOfStrokes;
+    pattern.Pattern = this->StrokePattern == Lissajous ? haptics::StrokePattern::Lissajous
+                                                       : haptics::StrokePattern::Boustrophedon;
+    points = pattern.Points(error);
+    if (points.empty())
+    {
+      return false;
+    }
+  }
+  else if (!ReadPolyData(this->Path, points, times, error))
+  {
+    return false;
+  }
+
+  const auto follow = [&]
+  {
+    return times.empty() ? path.FollowAtSpeed(points, this->Speed, this->Loop, error)
+                         : path.FollowTimes(points, times, this->Loop, error);
+  };
+  // Followed as it is first: that checks what the spline may rely on.
+  if (!follow())
+  {
+    return false;
+  }
+  if (this->Motion == Spline)
+  {
+    return haptics::RefineWithSpline(points, times, error) && follow();
+  }
+  return true;
+}
+
+void vtkSimulatedHapticDevice::SetPosition(double x, double y, double z)
+{
+  const std::array<double, 3> position{ x, y, z };
+  if (!haptics::IsFinite(position))
+  {
+    vtkErrorMacro("The position (" << x << ", " << y << ", " << z
+                                   << ") m is not finite; the hand stays where it is.");
+    return;
+  }
+  this->ManualPosition = position;
+  if (this->IsOpen())
+  {
+    this->Simulated->MoveHand({ this->ManualPosition, this->ManualButtons });
+  }
+}
+
+void vtkSimulatedHapticDevice::SetPosition(const double position[3])
+{
+  this->SetPosition(position[0], position[1], position[2]);
+}
+
+void vtkSimulatedHapticDevice::SetButtons(unsigned int buttons)
+{
+  this->ManualButtons = buttons;
+  if (this->IsOpen())
+  {
+    this->Simulated->MoveHand({ this->ManualPosition, this->ManualButtons });
+  }
+}
+
+double vtkSimulatedHapticDevice::GetDuration() const
+{
+  return this->IsOpen() ? this->Simulated->GetPath().Duration() : 0.0;
+}
+
+bool vtkSimulatedHapticDevice::GetPositionAt(double time, double position[3]) const
+{
+  if (!this->IsOpen())
+  {
+    return false;
+  }
+  const haptics::DevicePoint point =
+    this->Simulated->IsLed() ? this->ManualPosition : this->Simulated->GetPath().At(time);
+  std::copy(point.begin(), point.end(), position);
+  return true;
+}
+
+void vtkSimulatedHapticDevice::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  static const char* const motions[] = { "Manual", "Polyline", "Spline", "Stroke" };
+  static const char* const patterns[] = { "Boustrophedon", "Lissajous" };
+  const double* bounds = this->StrokeBounds;
+  os << indent << "Motion: " << motions[this->Motion] << "\n";
+  os << indent << "Path: " << this->Path << "\n";
+  os << indent << "Speed: " << this->Speed << " m/s\n";
+  os << indent << "Loop: " << (this->Loop ? "on" : "off") << "\n";
+  os << indent << "StrokeBounds: (" << bounds[0] << ", " << bounds[1] << ", " << bounds[2] << ", "
+     << bounds[3] << ", " << bounds[4] << ", " << bounds[5] << ") m\n";
+  os << indent << "StrokeAxis: " << this->StrokeAxis << "\n";
+  os << indent << "StrokePattern: " << patterns[this->StrokePattern] << "\n";
+  os << indent << "NumberOfStrokes: " << this->NumberOfStrokes << "\n";
+  os << indent << "PressDepth: " << this->PressDepth << " m\n";
+  os << indent << "StrokeClearance: " << this->StrokeClearance << " m\n";
+  os << indent << "StrokeInset: " << this->StrokeInset << "\n";
+  os << indent << "ManualPosition: (" << this->ManualPosition[0] << ", " << this->ManualPosition[1]
+     << ", " << this->ManualPosition[2] << ") m\n";
+  os << indent << "ManualButtons: " << this->ManualButtons << "\n";
+  os << indent << "Duration: " << this->GetDuration() << " s\n";
+}
