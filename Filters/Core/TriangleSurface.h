@@ -29,7 +29,7 @@ using Triangle = std::array<std::int32_t, 3>;
 struct TriangleMesh
 {
   std::vector<Vec3> Points;        ///< world frame, any unit
-  std::vector<Triangle> Triangles; ///< each with three different corners and an area
+  std::vector<Triangle> Triangles; ///< one without area is kept and never touched
 };
 
 struct SurfaceOptions
@@ -51,7 +51,7 @@ class VTKHAPTICSCORE_EXPORT TriangleSurface
 {
 public:
   /// Builds a snapshot, or returns null and says in `error` what is wrong and where: no triangle,
-  /// a corner index out of range, a coordinate that is not finite, a triangle without area, an
+  /// no triangle with an area, a corner index out of range, a coordinate that is not finite, an
   /// engine that this build does not have.
   static std::shared_ptr<const TriangleSurface> Build(
     TriangleMesh mesh, const SurfaceOptions& options, std::string& error);
@@ -67,8 +67,11 @@ public:
   const std::vector<Triangle>& Triangles() const { return this->Mesh.Triangles; }
   /// Half the diagonal of the bounds: no point is farther from Origin(). [world unit]
   double Radius() const { return this->SurfaceRadius; }
-  /// See SurfaceOptions::CrackWidth.
-  double CrackWidth() const { return this->Gap; }
+  /// Across each edge of each triangle: the neighbour, BoundaryEdge or NonManifoldEdge.
+  const Neighbours& AdjacentTriangles() const { return this->Adjacent; }
+  /// How far in front of a facet the god-object is kept at least [world unit]: 1024 roundings of
+  /// a coordinate, or a quarter of the crack width, whichever is more.
+  double Clearance() const { return this->MinimumClearance; }
 
   /// Front or Both: what Automatic came to.
   Side TouchedSide() const { return this->Touched; }
@@ -80,8 +83,9 @@ private:
 
   TriangleMesh Mesh;
   Vec3 SurfaceOrigin{};
+  Neighbours Adjacent;
   double SurfaceRadius = 0.0;
-  double Gap = 0.0;
+  double MinimumClearance = 0.0;
   Side Touched = Side::Front;
   SurfaceReport Found;
   std::unique_ptr<CollisionEngine> Collision;

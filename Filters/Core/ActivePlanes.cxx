@@ -1,0 +1,151 @@
+#include "ActivePlanes.h"
+
+#include "ConstraintSolver.h"
+
+#include <algorithm>
+
+namespace haptics
+{
+namespace
+{
+/// Planes closer to parallel than this squared sine have no usable line in common: one of them is
+/// left out, as it holds wherever the other does. (1e-12 rad; directions err by 1e-16.)
+constexpr double Parallel = 1e-24;
+}
+
+void ActivePlanes::Clear()
+{
+  this->Count = 0;
+  this->NumberOfSupports = 0;
+}
+
+bool ActivePlanes::Has(const FacetId& facet) const
+{
+  return std::any_of(this->Planes.begin(), this->Planes.begin() + this->Count,
+    [&facet](const ActivePlane& plane) { return plane.Facet == facet; });
+}
+
+void ActivePlanes::Add(const ActivePlane& plane)
+{
+  if (this->Count < Capacity)
+  {
+    this->Planes[this->Count++] = plane;
+    return;
+  }
+  // At most three of the six support: one of the first four is free.
+  const auto supports = [this](int i)
+  {
+    const auto end = this->Supports.begin() + this->NumberOfSupports;
+    return std::find(this->Supports.begin(), end, i) != end;
+  };
+  int slot = 0;
+  while (supports(slot))
+  {
+    ++slot;
+  }
+  this->Planes[slot] = plane;
+}
+
+Vector ActivePlanes::Nearest(const Vector& from, const Vector& hip)
+{
+  const Vector wish = hip - from;
+  Vector step(0.0);
+  // A god-object that rounding has worn down below half the clearance is lifted back, where the
+  // planes leave room for that.
+  if (!this->Solve(wish, true, from, step) && !this->Solve(wish, false, from, step))
+  {
+    return from;
+  }
+  // `from` is allowed: a nearest point farther from the HIP than it is rounding's.
+  return SquaredLength(step - wish) <= SquaredLength(wish) * (1.0 + 1e-12) ? from + step : from;
+}
+
+bool ActivePlanes::Solve(const Vector& wish, bool raise, const Vector& from, Vector& nearest)
+{
+  // Relative to `from`, where the numbers are small and keep their digits.
+  std::array<Plane<double>, Capacity> planes;
+  for (int i = 0; i < this->Count; ++i)
+  {
+    const ActivePlane& plane = this->Planes[i];
+    const double height = glm::dot(plane.Normal, from - plane.Anchor);
+    const bool lift = raise && height < 0.5 * plane.Clearance;
+    planes[i] = { { plane.Normal.x, plane.Normal.y, plane.Normal.z },
+      lift ? plane.Clearance - height : std::min(plane.Clearance - height, 0.0) };
+  }
+  const auto keepsAll = [&](const double y[3])
+  {
+    const double size = std::max({ std::abs(y[0]), std::abs(y[1]), std::abs(y[2]) });
+    for (int i = 0; i < this->Count; ++i)
+    {
+      const double slack = 0.125 * this->Planes[i].Clearance + 16.0 * UnitRoundoff * size;
+      if (Dot(planes[i].Normal, y) < planes[i].Offset - slack)
+      {
+        return false;
+      }
+    }
+    return true;
+  };
+
+  double best = HUGE_VAL;
+  this->NumberOfSupports = 0;
+  const auto consider = [&](const double y[3], std::array<int, 3> supports, int size)
+  {
+    if (!keepsAll(y))
+    {
+      return;
+    }
+    const Vector step(y[0], y[1], y[2]);
+    const double distance = SquaredLength(step - wish);
+    if (distance < best)
+    {
+      best = distance;
+      nearest = step;
+      this->Supports = supports;
+      this->NumberOfSupports = size;
+    }
+  };
+  const auto start = [&wish](double y[3])
+  {
+    y[0] = wish.x;
+    y[1] = wish.y;
+    y[2] = wish.z;
+  };
+
+  double y[3];
+  start(y);
+  consider(y, {}, 0);
+  // Fewer planes come nearer, so a size that has a solution ends the search.
+  for (int i = 0; i < this->Count && best > 0.0; ++i)
+  {
+    start(y);
+    ProjectOnto(planes[i], y);
+    consider(y, { i }, 1);
+  }
+  for (int i = 0; i < this->Count && best == HUGE_VAL; ++i)
+  {
+    for (int j = i + 1; j < this->Count; ++j)
+    {
+      start(y);
+      if (ProjectOnto(planes[i], planes[j], Parallel, y))
+      {
+        consider(y, { i, j }, 2);
+      }
+    }
+  }
+  for (int i = 0; i < this->Count && best == HUGE_VAL; ++i)
+  {
+    for (int j = i + 1; j < this->Count; ++j)
+    {
+      for (int k = j + 1; k < this->Count; ++k)
+      {
+        start(y);
+        if (ProjectOnto(planes[i], planes[j], planes[k], Parallel, y))
+        {
+          consider(y, { i, j, k }, 3);
+        }
+      }
+    }
+  }
+  return best < HUGE_VAL;
+}
+}

@@ -1,0 +1,66 @@
+#ifndef ActivePlanes_h
+#define ActivePlanes_h
+
+#include "VectorMath.h"
+
+#include <array>
+#include <cstdint>
+
+namespace haptics
+{
+/// A triangle of one of the touched surfaces.
+struct FacetId
+{
+  std::int32_t Surface = -1;
+  std::int32_t Triangle = -1;
+
+  bool operator==(const FacetId& other) const
+  {
+    return this->Surface == other.Surface && this->Triangle == other.Triangle;
+  }
+};
+
+/// A facet that holds the god-object back: stay at least Clearance in front of its plane.
+struct ActivePlane
+{
+  FacetId Facet;
+  Vector Normal{ 0 }; ///< unit, towards the god-object
+  Vector Anchor{ 0 }; ///< a corner of the facet, scene frame
+  double Clearance = 0.0;
+};
+
+/// @brief The planes that became active in one pass, and the nearest point to the HIP they allow.
+///
+/// The paper constrains by equality; here each plane is a half-space, and the nearest point is
+/// found among the equality solutions of at most three planes that keep all the others: that is
+/// the sign check of the multipliers, without which a god-object sticks in obtuse valleys. With at
+/// most six planes the search is exact, bounded and cannot cycle.
+class ActivePlanes
+{
+public:
+  static constexpr int Capacity = 6;
+
+  void Clear();
+  bool Has(const FacetId& facet) const;
+  /// Adds a plane; when full, in place of one that does not support the goal.
+  void Add(const ActivePlane& plane);
+
+  /// The point nearest to `hip` that keeps every plane, given that `from` nearly does; `from`
+  /// itself where the planes leave no better. Sets the support.
+  Vector Nearest(const Vector& from, const Vector& hip);
+
+  /// The planes that hold the last nearest point: at most three.
+  int SupportSize() const { return this->NumberOfSupports; }
+  const ActivePlane& Support(int i) const { return this->Planes[this->Supports[i]]; }
+
+private:
+  bool Solve(const Vector& wish, bool raise, const Vector& from, Vector& nearest);
+
+  std::array<ActivePlane, Capacity> Planes;
+  int Count = 0;
+  std::array<int, 3> Supports{};
+  int NumberOfSupports = 0;
+};
+}
+
+#endif

@@ -1,0 +1,26 @@
+#include "CollisionEngine.h"
+
+#include "BruteForceEngine.h"
+#include "EmbreeEngine.h"
+
+namespace haptics
+{
+std::unique_ptr<CollisionEngine> MakeEngine(EngineKind kind, const EngineInput& input)
+{
+  // Where a scan of all bounds and a descent of the tree take the same time.
+  constexpr std::size_t crossover = 64;
+  switch (kind)
+  {
+    case EngineKind::Automatic:
+      return input.Triangles.size() <= crossover ? MakeBruteForceEngine(input)
+                                                 : MakeEmbreeEngine(input);
+    case EngineKind::BruteForce:
+      return MakeBruteForceEngine(input);
+    case EngineKind::Embree:
+      return MakeEmbreeEngine(input);
+    case EngineKind::Exact:
+      break;
+  }
+  return nullptr;
+}
+}

@@ -1,0 +1,185 @@
+// The only file that knows Embree: releases 3 and 4 differ in how a query gets its callback.
+#include "EmbreeEngine.h"
+
+#include "VectorMath.h"
+
+#if HAPTICS_EMBREE_VERSION >= 4
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+#include <glm/common.hpp>
+
+#include <atomic>
+#include <cmath>
+
+namespace haptics
+{
+namespace
+{
+/// Embree works in float32. The surface is scaled by a power of two (exact) so that no coordinate
+/// is above 1, and every box is padded by this much: 16 roundings of a coordinate of 1, where a
+/// slab test of a box against a rounded ray errs by fewer than 4, and a distance test by as many.
+constexpr double Pad = 0x1p-20;
+
+#if HAPTICS_EMBREE_VERSION >= 4
+using RayContext = RTCRayQueryContext;
+#else
+using RayContext = RTCIntersectContext;
+#endif
+
+/// Embree hands the first member back to the callback, and with it the list.
+struct SegmentQuery
+{
+  RayContext Context;
+  TriangleList* Found;
+};
+
+bool CollectFromBall(RTCPointQueryFunctionArguments* query)
+{
+  auto* found = static_cast<TriangleList*>(query->userPtr);
+  if (found->Add(static_cast<std::int32_t>(query->primID)))
+  {
+    return false;
+  }
+  query->query->radius = 0.0f; // the list is full: nothing more is of use
+  return true;
+}
+
+void CollectFromSegment(const RTCOccludedFunctionNArguments* query)
+{
+  if (!query->valid[0])
+  {
+    return;
+  }
+  auto* segment = reinterpret_cast<SegmentQuery*>(query->context);
+  if (!segment->Found->Add(static_cast<std::int32_t>(query->primID)))
+  {
+    RTCRayN_tfar(query->ray, query->N, 0) = -HUGE_VALF; // occluded: ends the traversal
+  }
+}
+
+class EmbreeEngine final : public CollisionEngine
+{
+public:
+  explicit EmbreeEngine(const EngineInput& input)
+    : Points(input.Points)
+    , Triangles(input.Triangles)
+    , Scale(std::exp2(-std::ceil(std::log2(input.Radius))))
+    , BoxPad(Pad + input.Margin * this->Scale)
+    , Device(rtcNewDevice(nullptr))
+  {
+    rtcSetDeviceMemoryMonitorFunction(this->Device, CountBytes, this);
+    this->Scene = rtcNewScene(this->Device);
+    rtcSetSceneFlags(this->Scene, RTC_SCENE_FLAG_ROBUST);
+    RTCGeometry geometry = rtcNewGeometry(this->Device, RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(this->Triangles.size()));
+    rtcSetGeometryUserData(geometry, this);
+    rtcSetGeometryBoundsFunction(geometry, ComputeBounds, nullptr);
+    rtcSetGeometryOccludedFunction(geometry, CollectFromSegment);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(this->Scene, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(this->Scene);
+  }
+
+  ~EmbreeEngine() override
+  {
+    rtcReleaseScene(this->Scene);
+    rtcReleaseDevice(this->Device);
+  }
+
+  EmbreeEngine(const EmbreeEngine&) = delete;
+  EmbreeEngine& operator=(const EmbreeEngine&) = delete;
+
+  /// False when Embree could not build, as when memory ran out.
+  bool IsBuilt() const { return rtcGetDeviceError(this->Device) == RTC_ERROR_NONE; }
+
+  void FindInBall(const Vec3& centre, double radius, TriangleList& found) const noexcept override
+  {
+    RTCPointQuery query{};
+    query.x = static_cast<float>(centre[0] * this->Scale);
+    query.y = static_cast<float>(centre[1] * this->Scale);
+    query.z = static_cast<float>(centre[2] * this->Scale);
+    query.radius = static_cast<float>(radius * this->Scale * (1.0 + Pad));
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    rtcPointQuery(this->Scene, &query, &context, CollectFromBall, &found);
+  }
+
+  void FindOnSegment(const Vec3& from, const Vec3& to, TriangleList& found) const noexcept override
+  {
+    const Vector origin = ToVector(from) * this->Scale;
+    const Vector direction = ToVector(to) * this->Scale - origin;
+    RTCRay ray{};
+    ray.org_x = static_cast<float>(origin.x);
+    ray.org_y = static_cast<float>(origin.y);
+    ray.org_z = static_cast<float>(origin.z);
+    ray.dir_x = static_cast<float>(direction.x);
+    ray.dir_y = static_cast<float>(direction.y);
+    ray.dir_z = static_cast<float>(direction.z);
+    ray.tnear = 0.0f;
+    ray.tfar = 1.0f;
+    ray.mask = ~0u;
+    SegmentQuery query;
+    query.Found = &found;
+#if HAPTICS_EMBREE_VERSION >= 4
+    rtcInitRayQueryContext(&query.Context);
+    RTCOccludedArguments arguments;
+    rtcInitOccludedArguments(&arguments);
+    arguments.context = &query.Context;
+    rtcOccluded1(this->Scene, &ray, &arguments);
+#else
+    rtcInitIntersectContext(&query.Context);
+    rtcOccluded1(this->Scene, &query.Context, &ray);
+#endif
+  }
+
+  EngineKind Kind() const noexcept override { return EngineKind::Embree; }
+  std::size_t MemoryBytes() const noexcept override
+  {
+    return static_cast<std::size_t>(this->Bytes.load());
+  }
+
+private:
+  static void ComputeBounds(const RTCBoundsFunctionArguments* arguments)
+  {
+    const auto* self = static_cast<const EmbreeEngine*>(arguments->geometryUserPtr);
+    const auto& t = self->Triangles[arguments->primID];
+    const Vector a = ToVector(self->Points[t[0]]);
+    const Vector b = ToVector(self->Points[t[1]]);
+    const Vector c = ToVector(self->Points[t[2]]);
+    const Vector low = glm::min(a, glm::min(b, c)) * self->Scale - self->BoxPad;
+    const Vector high = glm::max(a, glm::max(b, c)) * self->Scale + self->BoxPad;
+    RTCBounds& bounds = *arguments->bounds_o;
+    bounds.lower_x = static_cast<float>(low.x);
+    bounds.lower_y = static_cast<float>(low.y);
+    bounds.lower_z = static_cast<float>(low.z);
+    bounds.upper_x = static_cast<float>(high.x);
+    bounds.upper_y = static_cast<float>(high.y);
+    bounds.upper_z = static_cast<float>(high.z);
+  }
+
+  static bool CountBytes(void* self, ssize_t bytes, bool)
+  {
+    static_cast<EmbreeEngine*>(self)->Bytes += bytes;
+    return true;
+  }
+
+  const std::vector<Vec3>& Points;
+  const std::vector<std::array<std::int32_t, 3>>& Triangles;
+  double Scale;  ///< surface's local frame to Embree's
+  double BoxPad; ///< in Embree's frame
+  std::atomic<std::ptrdiff_t> Bytes{ 0 };
+  RTCDevice Device;
+  RTCScene Scene = nullptr;
+};
+}
+
+std::unique_ptr<CollisionEngine> MakeEmbreeEngine(const EngineInput& input)
+{
+  auto engine = std::make_unique<EmbreeEngine>(input);
+  return engine->IsBuilt() ? std::move(engine) : nullptr;
+}
+}

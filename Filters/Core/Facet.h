@@ -1,0 +1,89 @@
+#ifndef Facet_h
+#define Facet_h
+
+#include "VectorMath.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace haptics
+{
+/// @brief The plane of one triangle, and how well float64 knows it.
+///
+/// All distances are evaluated as n·(x − v) with v a corner of the triangle, so that their error
+/// grows with the distance from the triangle and not with that from the world's origin.
+struct Facet
+{
+  Vector Corner[3];   ///< as given; Corner[Anchor] is the one opposite the longest edge
+  Vector Normal{ 0 }; ///< unit; zero when the triangle has no area
+  double LongestEdge = 0.0;
+  /// |e1||e2| / |e1 × e2| at the anchor, at least 1: how many times rounding is amplified.
+  double Condition = HUGE_VAL;
+  int Anchor = 0;
+
+  Facet(const Vector& a, const Vector& b, const Vector& c)
+    : Corner{ a, b, c }
+  {
+    const double squared[3] = { SquaredLength(c - b), SquaredLength(a - c), SquaredLength(b - a) };
+    // By the law of sines the angle opposite the longest edge has the largest sine.
+    this->Anchor = static_cast<int>(std::max_element(squared, squared + 3) - squared);
+    this->LongestEdge = std::sqrt(squared[this->Anchor]);
+    const Vector& v = this->Corner[this->Anchor];
+    // Scaled to the size of 1, so that a tiny triangle does not underflow.
+    const double scale = 1.0 / this->LongestEdge;
+    const Vector e1 = (this->Corner[(this->Anchor + 1) % 3] - v) * scale;
+    const Vector e2 = (this->Corner[(this->Anchor + 2) % 3] - v) * scale;
+    const Vector n = glm::cross(e1, e2);
+    const double length = glm::length(n);
+    if (std::isfinite(scale) && length > 0.0)
+    {
+      this->Normal = n / length;
+      this->Condition = std::sqrt(SquaredLength(e1) * SquaredLength(e2)) / length;
+    }
+  }
+
+  bool HasArea() const { return std::isfinite(this->Condition); }
+
+  /// Bound on the error of Normal·(x − anchor) for any x at most `distance` from the anchor.
+  /// The cross product's error is at most 9u|e1||e2|, the rest of the evaluation below 16u.
+  double DistanceError(double distance) const
+  {
+    return 32.0 * UnitRoundoff * this->Condition * distance;
+  }
+
+  /// How far in front of this facet the god-object is kept: enough for the side to be certain at
+  /// `distance` from it, but never more than a millionth of the facet.
+  double Clearance(double minimum, double distance) const
+  {
+    return std::max(
+      minimum, std::min(4.0 * this->DistanceError(distance), 1e-6 * this->LongestEdge));
+  }
+
+  /// Whether x, projected on the plane, lies in the triangle grown by `growth` beyond its edges.
+  bool Covers(const Vector& x, double growth) const
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const Vector& from = this->Corner[k];
+      const Vector edge = this->Corner[(k + 1) % 3] - from;
+      const Vector inward = glm::cross(this->Normal, edge);
+      if (glm::dot(inward, x - from) < -growth * glm::length(edge))
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+};
+
+/// A facet is met a little beyond its edges, by this many clearances: closes cracks as wide.
+constexpr double GrowthPerClearance = 4.0;
+
+/// The widest that any facet of a surface reaches beyond itself.
+inline double LargestGrowth(double clearance, double longestEdge)
+{
+  return (GrowthPerClearance + 1.0) * std::max(clearance, 1e-6 * longestEdge);
+}
+}
+
+#endif

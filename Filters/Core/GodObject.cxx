@@ -1,0 +1,254 @@
+#include "GodObject.h"
+
+#include "WorkingSet.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace haptics
+{
+namespace
+{
+/// Fig. 5's two-step transition over a convex edge is made within one update by passes; each lets
+/// go of the planes that held only beyond their facets.
+constexpr int LargestNumberOfPasses = 4;
+/// A pass meets at most a few facets; more come of rounding.
+constexpr int LargestNumberOfCasts = 12;
+/// A refused motion is tried at 1, 1/2, ... 1/32 of its length.
+constexpr int LargestNumberOfHalvings = 6;
+/// Triangles looked up in one update, all passes and surfaces together: a few hundred in practice.
+constexpr std::int64_t LargestNumberOfTriangles = 1 << 15;
+/// Farther out, squares would leave the range of float64.
+constexpr double FarthestHip = 1e100;
+}
+
+class GodObject::Implementation
+{
+public:
+  explicit Implementation(std::vector<std::shared_ptr<const TriangleSurface>> surfaces)
+    : Surfaces(std::move(surfaces))
+  {
+    if (!this->Surfaces.empty())
+    {
+      this->Origin = ToVector(this->Surfaces.front()->Origin());
+    }
+    this->Sets.reserve(this->Surfaces.size());
+    for (const auto& surface : this->Surfaces)
+    {
+      const auto index = static_cast<std::int32_t>(this->Sets.size());
+      this->Sets.emplace_back(surface, index, ToVector(surface->Origin()) - this->Origin);
+    }
+  }
+
+  void Place(const Vector& position)
+  {
+    this->Position = position;
+    this->IsPlaced = true;
+    for (WorkingSet& set : this->Sets)
+    {
+      set.Place(position);
+    }
+  }
+
+  void Update(const Vector& hip)
+  {
+    this->Budget.Triangles = LargestNumberOfTriangles;
+    this->IsOverloaded = false;
+    this->Active.Clear();
+    for (int pass = 0; pass < LargestNumberOfPasses; ++pass)
+    {
+      const Vector before = this->Position;
+      const bool arrived = this->Pass(hip);
+      if (this->IsOverloaded || this->Position == hip || (arrived && this->IsSupported()))
+      {
+        break;
+      }
+      if (SquaredLength(this->Position - before) <= 1e-18 * SquaredLength(hip - before))
+      {
+        break;
+      }
+    }
+  }
+
+  std::vector<std::shared_ptr<const TriangleSurface>> Surfaces;
+  Vector Origin{ 0 };   ///< of the scene frame, in the world
+  Vector Position{ 0 }; ///< scene frame
+  bool IsPlaced = false;
+  bool IsOverloaded = false;
+  ActivePlanes Active;
+  Contact Result;
+
+private:
+  /// Moves to the nearest point to the HIP that the facets met on the way allow.
+  /// True if it came there.
+  bool Pass(const Vector& hip)
+  {
+    this->Active.Clear();
+    Vector goal = hip;
+    for (int cast = 0; cast < LargestNumberOfCasts; ++cast)
+    {
+      FacetHit hit;
+      for (WorkingSet& set : this->Sets)
+      {
+        FacetHit other;
+        if (!set.FindFirstHit(goal, this->Active, this->Budget, other))
+        {
+          this->IsOverloaded = true;
+          return false;
+        }
+        if (other.Fraction < hit.Fraction)
+        {
+          hit = other;
+        }
+      }
+      if (!hit)
+      {
+        const bool arrived = this->MoveTowards(goal);
+        if (arrived || this->Active.SupportSize() == 0)
+        {
+          return arrived;
+        }
+        const Vector next = this->Active.Nearest(this->Position, hip);
+        if (next == goal)
+        {
+          return false;
+        }
+        goal = next;
+        continue;
+      }
+      if (hit.Fraction > 0.0)
+      {
+        this->MoveTowards(this->Position + hit.Fraction * (goal - this->Position));
+      }
+      if (this->Active.Has(hit.Plane.Facet))
+      {
+        return false;
+      }
+      this->Active.Add(hit.Plane);
+      goal = this->Active.Nearest(this->Position, hip);
+    }
+    return false;
+  }
+
+  /// Makes the motion, or the largest tried part of it that is certified to cross nothing.
+  /// True if all of it was made.
+  bool MoveTowards(const Vector& target)
+  {
+    Vector step = target - this->Position;
+    Vector to = target;
+    for (int halving = 0; halving < LargestNumberOfHalvings; ++halving)
+    {
+      const bool isClear = std::all_of(this->Sets.begin(), this->Sets.end(),
+        [&to](WorkingSet& set) { return set.IsClear(to); });
+      if (isClear)
+      {
+        for (WorkingSet& set : this->Sets)
+        {
+          set.Move();
+        }
+        this->Position = to;
+        return halving == 0;
+      }
+      step *= 0.5;
+      to = this->Position + step;
+    }
+    return false;
+  }
+
+  /// Whether each plane that holds the god-object does so with its own facet. One that holds it
+  /// beyond its facet's edges has to be let go of: Fig. 5b.
+  bool IsSupported() const
+  {
+    for (int i = 0; i < this->Active.SupportSize(); ++i)
+    {
+      const ActivePlane& plane = this->Active.Support(i);
+      if (!this->Sets[plane.Facet.Surface].Covers(plane, this->Position))
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  std::vector<WorkingSet> Sets;
+  WorkBudget Budget;
+};
+
+GodObject::GodObject(std::vector<std::shared_ptr<const TriangleSurface>> surfaces)
+  : Internal(new Implementation(std::move(surfaces)))
+{
+}
+
+GodObject::~GodObject() = default;
+
+void GodObject::Place(const Vec3& hip) noexcept
+{
+  const Vector position = ToVector(hip) - this->Internal->Origin;
+  this->Internal->Place(position);
+  this->Internal->Result = {};
+  this->Internal->Result.Hip = hip;
+  this->Internal->Result.Position = hip;
+}
+
+void GodObject::Continue(const GodObject& previous) noexcept
+{
+  if (previous.Internal->IsPlaced)
+  {
+    this->Internal->Place(
+      previous.Internal->Position + (previous.Internal->Origin - this->Internal->Origin));
+    this->Internal->Result = previous.Internal->Result;
+  }
+}
+
+const Contact& GodObject::Update(const Vec3& hip) noexcept
+{
+  Implementation& god = *this->Internal;
+  Contact& result = god.Result;
+  const bool isValid = std::all_of(
+    hip.begin(), hip.end(), [](double x) { return std::abs(x) < FarthestHip; }); // false for NaN
+  if (!isValid)
+  {
+    result.Status = UpdateStatus::InvalidHip;
+    result.Displacement = {};
+    result.Penetration = 0.0;
+    result.NumberOfConstraints = 0;
+    return result;
+  }
+  const Vector goal = ToVector(hip) - god.Origin;
+  if (!god.IsPlaced)
+  {
+    god.Place(goal);
+  }
+  god.Update(goal);
+
+  const Vector displacement = god.Position - goal;
+  result.Hip = hip;
+  result.Position = ToVec3(god.Position + god.Origin);
+  result.Displacement = ToVec3(displacement);
+  result.Penetration = glm::length(displacement);
+  result.NumberOfConstraints = 0;
+  result.Status = god.IsOverloaded ? UpdateStatus::Overloaded
+    : god.Position == goal         ? UpdateStatus::Free
+                                   : UpdateStatus::Touching;
+  if (result.Status != UpdateStatus::Free)
+  {
+    result.NumberOfConstraints = god.Active.SupportSize();
+    for (int i = 0; i < result.NumberOfConstraints; ++i)
+    {
+      const ActivePlane& plane = god.Active.Support(i);
+      result.Constraints[i] = { ToVec3(plane.Normal), plane.Facet.Surface, plane.Facet.Triangle };
+    }
+  }
+  return result;
+}
+
+const Contact& GodObject::Current() const noexcept
+{
+  return this->Internal->Result;
+}
+
+const std::vector<std::shared_ptr<const TriangleSurface>>& GodObject::Surfaces() const noexcept
+{
+  return this->Internal->Surfaces;
+}
+}

@@ -1,0 +1,364 @@
+#include "WorkingSet.h"
+
+#include "Predicates.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace haptics
+{
+namespace
+{
+/// Most triangles that one gathering holds: more meet in no point of any surface seen, and fewer
+/// would leave the tip of a finely cut cone out of touch.
+constexpr std::int32_t LargestSet = 8192;
+/// A ball with more is tried again at half the radius.
+constexpr std::int32_t LargestBall = 256;
+/// About as many make gathering rare and scanning quick.
+constexpr double WantedInBall = 24.0;
+
+bool BoxMeetsBall(const Vector& low, const Vector& high, const Vector& centre, double radius)
+{
+  const Vector outside = glm::max(glm::max(low - centre, centre - high), Vector(0.0));
+  return SquaredLength(outside) <= radius * radius;
+}
+}
+
+WorkingSet::WorkingSet(
+  std::shared_ptr<const TriangleSurface> surface, std::int32_t index, const Vector& offset)
+  : Touched(std::move(surface))
+  , Index(index)
+  , Offset(offset)
+  // Positions are rounded in the scene frame, which may be far from this surface.
+  , MinimumClearance(std::max(
+      this->Touched->Clearance(), 1024.0 * UnitRoundoff * (glm::length(offset) + this->Touched->Radius())))
+  , RadiusToTry(this->Touched->Radius())
+{
+  const std::size_t capacity =
+    std::min<std::size_t>(LargestSet, this->Touched->Triangles().size());
+  this->Found.resize(capacity);
+  this->Triangles.resize(capacity);
+  this->Flipped.resize(capacity);
+  for (auto* values : { &this->NormalX, &this->NormalY, &this->NormalZ, &this->PlaneOffset,
+         &this->Error, &this->Clearance, &this->Distance, &this->TargetDistance })
+  {
+    values->resize(capacity);
+  }
+}
+
+void WorkingSet::Place(const Vector& position)
+{
+  this->Position = position - this->Offset;
+  this->Covered = Region::Nothing;
+}
+
+bool WorkingSet::IsInBall(const Vector& x) const
+{
+  return SquaredLength(x - this->Centre) <= this->Radius * this->Radius;
+}
+
+bool WorkingSet::FindFirstHit(
+  const Vector& goal, const ActivePlanes& active, WorkBudget& budget, FacetHit& hit)
+{
+  const Vector to = goal - this->Offset;
+  const auto isAnswered = [&]
+  {
+    // All triangles in the ball are known: a hit inside it is the first of the whole way.
+    return this->IsInBall(to) ||
+      (hit && this->IsInBall(this->Position + hit.Fraction * (to - this->Position)));
+  };
+  if (this->Covered == Region::Ball)
+  {
+    hit = this->Scan(to, active);
+    if (isAnswered())
+    {
+      return true;
+    }
+  }
+  // Another ball is worth while where the god-object has neared the rim of the old one.
+  const bool isCentred = this->Covered == Region::Ball && this->Centre == this->Position;
+  if (!isCentred && this->GatherBall(budget))
+  {
+    hit = this->Scan(to, active);
+    if (isAnswered())
+    {
+      return true;
+    }
+  }
+  if (!this->GatherSegment(to, budget))
+  {
+    return false;
+  }
+  hit = this->Scan(to, active);
+  return true;
+}
+
+bool WorkingSet::GatherBall(WorkBudget& budget)
+{
+  this->Covered = Region::Nothing;
+  this->Centre = this->Position;
+  const double surfaceRadius = this->Touched->Radius();
+  const double fromOrigin = glm::length(this->Position);
+  if (fromOrigin > 1.5 * surfaceRadius)
+  {
+    // No triangle is this far out.
+    this->Radius = (fromOrigin - surfaceRadius) * (1.0 - 0x1p-40);
+    this->RadiusToTry = surfaceRadius;
+    this->Count = 0;
+    this->Covered = Region::Ball;
+    return true;
+  }
+  const auto capacity = static_cast<std::int32_t>(this->Found.size());
+  const double smallest = 0x1p-30 * surfaceRadius;
+  for (double radius = this->RadiusToTry; budget.Triangles > 0; radius *= 0.5)
+  {
+    const bool isSmallest = radius <= smallest;
+    TriangleList found{ this->Found.data(), isSmallest ? capacity : std::min(capacity, LargestBall) };
+    this->Touched->Engine().FindInBall(ToVec3(this->Centre), radius, found);
+    budget.Triangles -= found.Count;
+    if (!found.Overflow)
+    {
+      this->Radius = radius * (1.0 - 0x1p-40);
+      this->Fill(found, radius);
+      this->Covered = Region::Ball;
+      const double change = std::sqrt(WantedInBall / (this->Count + 1.0));
+      this->RadiusToTry =
+        std::min(radius * std::clamp(change, 0.5, 2.0), surfaceRadius);
+      return true;
+    }
+    if (isSmallest)
+    {
+      break;
+    }
+  }
+  return false;
+}
+
+bool WorkingSet::GatherSegment(const Vector& to, WorkBudget& budget)
+{
+  this->Covered = Region::Nothing;
+  this->Centre = this->Position;
+  // Far away there is no triangle, and the engine's coordinates are for the surface's own size.
+  const double reach = 1.5 * this->Touched->Radius();
+  const Vector way = to - this->Position;
+  const double a = SquaredLength(way);
+  const double b = glm::dot(way, this->Position);
+  const double c = SquaredLength(this->Position) - reach * reach;
+  const double root = b * b - a * c;
+  double enter = 0.0;
+  double leave = 1.0;
+  if (a > 0.0 && root > 0.0)
+  {
+    enter = std::max(0.0, (-b - std::sqrt(root)) / a);
+    leave = std::min(1.0, (-b + std::sqrt(root)) / a);
+  }
+  TriangleList found{ this->Found.data(), static_cast<std::int32_t>(this->Found.size()) };
+  if ((a == 0.0 || root > 0.0) && enter <= leave)
+  {
+    this->Touched->Engine().FindOnSegment(
+      ToVec3(this->Position + enter * way), ToVec3(this->Position + leave * way), found);
+    budget.Triangles -= found.Count;
+  }
+  if (found.Overflow || budget.Triangles <= 0)
+  {
+    return false;
+  }
+  this->Radius = HUGE_VAL;
+  this->Fill(found, std::sqrt(a));
+  this->Covered = Region::Segment;
+  return true;
+}
+
+Facet WorkingSet::MakeFacet(std::int32_t triangle) const
+{
+  const auto& corners = this->Touched->Triangles()[triangle];
+  const auto& points = this->Touched->Points();
+  return { ToVector(points[corners[0]]), ToVector(points[corners[1]]),
+    ToVector(points[corners[2]]) };
+}
+
+void WorkingSet::Fill(const TriangleList& found, double reach)
+{
+  this->Count = 0;
+  const auto& triangles = this->Touched->Triangles();
+  const auto& points = this->Touched->Points();
+  for (std::int32_t k = 0; k < found.Count; ++k)
+  {
+    const std::int32_t id = found.Indices[k];
+    const Vector a = ToVector(points[triangles[id][0]]);
+    const Vector b = ToVector(points[triangles[id][1]]);
+    const Vector c = ToVector(points[triangles[id][2]]);
+    if (!BoxMeetsBall(
+          glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)), this->Centre, this->Radius))
+    {
+      continue;
+    }
+    const Facet facet(a, b, c);
+    if (!facet.HasArea())
+    {
+      continue;
+    }
+    const Vector fromCentre = facet.Corner[facet.Anchor] - this->Centre;
+    const double farthest = glm::length(fromCentre) + reach;
+    const std::int32_t i = this->Count++;
+    this->Triangles[i] = id;
+    this->Flipped[i] = 0;
+    this->NormalX[i] = facet.Normal.x;
+    this->NormalY[i] = facet.Normal.y;
+    this->NormalZ[i] = facet.Normal.z;
+    this->PlaneOffset[i] = glm::dot(facet.Normal, fromCentre);
+    this->Error[i] = facet.DistanceError(farthest);
+    this->Clearance[i] = facet.Clearance(this->MinimumClearance, farthest);
+  }
+  this->Measure(this->Position, this->Distance);
+  this->TurnToPosition();
+}
+
+void WorkingSet::Measure(const Vector& x, std::vector<double>& distances) const
+{
+  const Vector d = x - this->Centre;
+  const double* const nx = this->NormalX.data();
+  const double* const ny = this->NormalY.data();
+  const double* const nz = this->NormalZ.data();
+  const double* const offset = this->PlaneOffset.data();
+  double* const out = distances.data();
+  for (std::int32_t i = 0; i < this->Count; ++i)
+  {
+    out[i] = nx[i] * d.x + ny[i] * d.y + nz[i] * d.z - offset[i];
+  }
+}
+
+void WorkingSet::TurnToPosition()
+{
+  if (this->Touched->TouchedSide() != Side::Both)
+  {
+    return;
+  }
+  for (std::int32_t i = 0; i < this->Count; ++i)
+  {
+    bool isBehind = this->Distance[i] < 0.0;
+    if (std::abs(this->Distance[i]) <= this->Error[i])
+    {
+      const Facet facet = this->MakeFacet(this->Triangles[i]);
+      const int side =
+        Orientation(facet.Corner[0], facet.Corner[1], facet.Corner[2], this->Position);
+      isBehind = (this->Flipped[i] ? -side : side) < 0;
+    }
+    if (isBehind)
+    {
+      this->Flipped[i] ^= 1;
+      for (auto* values : { &this->NormalX, &this->NormalY, &this->NormalZ, &this->PlaneOffset,
+             &this->Distance })
+      {
+        (*values)[i] = -(*values)[i];
+      }
+    }
+  }
+}
+
+FacetHit WorkingSet::Scan(const Vector& to, const ActivePlanes& active)
+{
+  this->Target = to;
+  this->Measure(to, this->TargetDistance);
+  const Vector way = to - this->Position;
+  FacetHit hit;
+  for (std::int32_t i = 0; i < this->Count; ++i)
+  {
+    const double here = this->Distance[i];
+    const double there = this->TargetDistance[i];
+    const double clearance = this->Clearance[i];
+    // Half the clearance, so that rounding along flat neighbours does not look like a hit.
+    if (there >= 0.5 * clearance || there >= here || here < -this->Error[i])
+    {
+      continue;
+    }
+    const double approach = here - there;
+    const double stop = std::max(0.0, (here - clearance) / approach);
+    if (stop >= hit.Fraction)
+    {
+      continue;
+    }
+    const double cross = std::clamp(here / approach, 0.0, 1.0);
+    const FacetId id{ this->Index, this->Triangles[i] };
+    const bool isActive = active.Has(id);
+    if (isActive && there > 0.0)
+    {
+      continue;
+    }
+    const Facet facet = this->MakeFacet(this->Triangles[i]);
+    const double growth =
+      GrowthPerClearance * clearance + 16.0 * UnitRoundoff * glm::length(way);
+    const double enter = std::max(0.0, (here - 0.5 * clearance) / approach);
+    const bool meets = (!isActive && facet.Covers(this->Position + enter * way, growth)) ||
+      (there <= 0.0 && facet.Covers(this->Position + cross * way, growth));
+    if (meets)
+    {
+      hit.Fraction = stop;
+      hit.Plane.Facet = id;
+      hit.Plane.Normal = { this->NormalX[i], this->NormalY[i], this->NormalZ[i] };
+      hit.Plane.Anchor = facet.Corner[facet.Anchor] + this->Offset;
+      hit.Plane.Clearance = clearance;
+    }
+  }
+  return hit;
+}
+
+bool WorkingSet::IsClear(const Vector& target)
+{
+  const Vector to = target - this->Offset;
+  if (to != this->Target)
+  {
+    this->Target = to;
+    this->Measure(to, this->TargetDistance);
+  }
+  for (std::int32_t i = 0; i < this->Count; ++i)
+  {
+    const bool mayBeBefore = this->Distance[i] >= -this->Error[i];
+    const bool mayEndBehind = this->TargetDistance[i] <= this->Error[i];
+    if (mayBeBefore && mayEndBehind && this->Touches(i, this->Position, to))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool WorkingSet::Touches(std::int32_t i, const Vector& from, const Vector& to) const
+{
+  const Facet facet = this->MakeFacet(this->Triangles[i]);
+  const Vector& a = facet.Corner[0];
+  const Vector& b = facet.Corner[this->Flipped[i] ? 2 : 1];
+  const Vector& c = facet.Corner[this->Flipped[i] ? 1 : 2];
+  const int before = this->Distance[i] > this->Error[i] ? 1 : Orientation(a, b, c, from);
+  if (before < 0)
+  {
+    return false;
+  }
+  const int after = this->TargetDistance[i] < -this->Error[i] ? -1 : Orientation(a, b, c, to);
+  if (after > 0 || (before == 0 && after == 0))
+  {
+    return false;
+  }
+  return LineMeetsTriangle(from, to, a, b, c);
+}
+
+void WorkingSet::Move()
+{
+  this->Position = this->Target;
+  std::swap(this->Distance, this->TargetDistance);
+  if (this->Covered == Region::Segment)
+  {
+    this->Covered = Region::Nothing;
+    return;
+  }
+  this->TurnToPosition();
+}
+
+bool WorkingSet::Covers(const ActivePlane& plane, const Vector& position) const
+{
+  const Facet facet = this->MakeFacet(plane.Facet.Triangle);
+  return facet.Covers(position - this->Offset, GrowthPerClearance * plane.Clearance);
+}
+}

@@ -1,0 +1,106 @@
+#ifndef WorkingSet_h
+#define WorkingSet_h
+
+#include "ActivePlanes.h"
+#include "TriangleSurface.h"
+#include "Facet.h"
+
+#include <memory>
+#include <vector>
+
+namespace haptics
+{
+/// How many triangles an update may still look up: what bounds the work of a tick.
+struct WorkBudget
+{
+  std::int64_t Triangles = 0;
+};
+
+/// The first facet that a motion meets.
+struct FacetHit
+{
+  double Fraction = HUGE_VAL; ///< of the motion, 0 to 1; HUGE_VAL: none
+  ActivePlane Plane;
+
+  explicit operator bool() const { return this->Fraction <= 1.0; }
+};
+
+/// @brief The triangles around the god-object, side by side in memory.
+///
+/// A ball of triangles is gathered from the surface's engine once and serves every cast and every
+/// certificate of several ticks. A motion that leaves the ball is answered from the triangles along
+/// it. Either way no triangle that the motion can meet is missing, because engines are conservative.
+///
+/// All positions are in the scene frame. Inside, the surface's local frame is used: a position
+/// always rounds to the same local point, so that pieces of the path join exactly.
+class WorkingSet
+{
+public:
+  /// `index` names the surface in FacetIds; `offset` is its origin in the scene frame.
+  WorkingSet(
+    std::shared_ptr<const TriangleSurface> surface, std::int32_t index, const Vector& offset);
+
+  const TriangleSurface& Surface() const { return *this->Touched; }
+
+  /// Puts the god-object somewhere without moving it there.
+  void Place(const Vector& position);
+
+  /// Finds the first facet met on the way to `goal`, short of which the god-object has to stop.
+  /// Active facets count only where they would be crossed. False when the budget ends first, or one
+  /// place has more triangles than fit: then nothing may move.
+  bool FindFirstHit(
+    const Vector& goal, const ActivePlanes& active, WorkBudget& budget, FacetHit& hit);
+
+  /// Certifies a motion to `target`, on the way to the goal of the last FindFirstHit and no farther
+  /// than its hit: true only if it touches no facet from the side that can be touched. Exact.
+  bool IsClear(const Vector& target);
+
+  /// Moves to the target of the last IsClear, which must have been true.
+  void Move();
+
+  /// Whether the god-object stands over the facet itself, not only over its plane.
+  bool Covers(const ActivePlane& plane, const Vector& position) const;
+
+private:
+  enum class Region
+  {
+    Nothing,
+    Ball,
+    Segment
+  };
+
+  bool GatherBall(WorkBudget& budget);
+  bool GatherSegment(const Vector& to, WorkBudget& budget);
+  void Fill(const TriangleList& found, double reach);
+  void Measure(const Vector& x, std::vector<double>& distances) const;
+  void TurnToPosition();
+  FacetHit Scan(const Vector& to, const ActivePlanes& active);
+  bool Touches(std::int32_t i, const Vector& from, const Vector& to) const;
+  Facet MakeFacet(std::int32_t triangle) const;
+  bool IsInBall(const Vector& x) const;
+
+  std::shared_ptr<const TriangleSurface> Touched;
+  std::int32_t Index;
+  Vector Offset;
+  double MinimumClearance;
+
+  Region Covered = Region::Nothing;
+  Vector Centre{ 0 };       ///< of the ball; start of the segment
+  double Radius = 0.0;      ///< of the ball
+  double RadiusToTry = 0.0; ///< next time
+  Vector Position{ 0 };     ///< god-object, local frame
+  Vector Target{ 0 };       ///< what TargetDistance was measured for, local frame
+
+  // Structure of arrays, one entry a gathered triangle. Distances are to its plane, positive on
+  // the side that the god-object is on when both sides can be touched.
+  std::int32_t Count = 0;
+  std::vector<std::int32_t> Found;
+  std::vector<std::int32_t> Triangles;
+  std::vector<std::uint8_t> Flipped;
+  std::vector<double> NormalX, NormalY, NormalZ, PlaneOffset;
+  std::vector<double> Error, Clearance;
+  std::vector<double> Distance, TargetDistance;
+};
+}
+
+#endif
