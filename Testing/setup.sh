@@ -55,7 +55,7 @@ run_logged()
     sleep 1
     seconds=$((seconds + 1))
     if [ $((seconds % 10)) -eq 0 ]; then
-      printf '    %4d s  %s\n' "$seconds" "$(tail -n 1 "$log" | tr '\r' '\n' | tail -n 1 | cut -c 1-80)"
+      printf '    %4d s  %s\n' "$seconds" "$(tail -n 1 "$log" | tr -d '\r' | cut -c 1-80)"
     fi
   done
   wait "$pid"
