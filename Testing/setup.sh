@@ -119,6 +119,11 @@ case $release in
       list=Testing/packages-$release-vtk.txt
     fi
     install_packages "$list"
+    if [ $preset = paraview ] && ! installed paraview-dev; then
+      warn "ParaView is not to be had here: building against VTK alone, without the plugin."
+      preset=vtk
+      install_packages "Testing/packages-$release-vtk.txt"
+    fi
     ;;
   *)
     if [ $preset = paraview ] && ! command -v pvpython >/dev/null; then
