@@ -1,0 +1,61 @@
+#ifndef SurfaceCleaner_h
+#define SurfaceCleaner_h
+
+#include "TriangleSurface.h"
+
+#include "vtkType.h"
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+class vtkPolyData;
+
+namespace haptics
+{
+struct CleaningOptions
+{
+  double MergeTolerance = 0.0;     ///< finite, >= 0
+  bool AbsoluteTolerance = false;  ///< in world units; otherwise a fraction of the bounds' diagonal
+};
+
+/// What was found and mended on the way from cells to clean triangles.
+struct CleaningReport
+{
+  std::int64_t MergedPoints = 0;        ///< points that another one now stands for
+  std::int64_t UnusedPoints = 0;        ///< points of no remaining triangle
+  std::int64_t DegenerateTriangles = 0; ///< without area, dropped
+  std::int64_t DuplicateTriangles = 0;  ///< equal corners and orientation, all but the first dropped
+  std::int64_t FoldedPolygons = 0;      ///< crossing themselves, split into a fan
+  std::int64_t GhostCells = 0;          ///< ghosts and blanked cells, dropped
+  vtkIdType FirstFoldedCell = -1;
+};
+
+/// @brief Clean triangles, and where each came from.
+struct CleanedMesh
+{
+  TriangleMesh Mesh;                    ///< world frame; every point is used
+  std::vector<vtkIdType> OriginalPoint; ///< for each point the first input point that it stands for
+  std::vector<vtkIdType> OriginalCell;  ///< for each triangle the input cell
+  double LargestCoordinate = 0.0;       ///< largest |coordinate| of a used point [world unit]
+  CleaningReport Report;
+};
+
+enum class CleaningResult
+{
+  Done,
+  Failed, ///< see the error text
+  Aborted
+};
+
+/// Called with the progress from 0 to 1; false stops the work.
+using ProgressCall = std::function<bool(double)>;
+
+/// Turns the polygons and strips of `input` into clean triangles; its verts and lines are left out.
+/// On failure `error` says what is wrong, where, and what to do. Reads `input` only.
+CleaningResult CleanSurface(vtkPolyData* input, const CleaningOptions& options,
+  const ProgressCall& progress, CleanedMesh& cleaned, std::string& error);
+}
+
+#endif

@@ -1,0 +1,194 @@
+/**
+ * @class   vtkGodObjectFilter
+ * @brief   turns any vtkPolyData into clean triangles that can be touched
+ *
+ * Takes polygons with any number of corners (convex or concave, planar or nearly so), triangle
+ * strips, and mixtures of these; verts and lines beside them are left out, and so are ghost and
+ * blanked cells. Equal points become one, triangles without area and duplicates are dropped. The
+ * output has triangles only, in the world frame and unit of the input, with:
+ *
+ * - the input's point and cell data, and the arrays `OriginalPointId` and `OriginalCellId`, which
+ *   name the input point and cell that each output point and triangle came from;
+ * - one field data array of one value for each count below, for example `BoundaryEdges`, and the
+ *   string array `TouchedSide`.
+ *
+ * From the same triangles it builds the snapshot that a vtkHapticServo or a vtkGodObjectTrace
+ * touches: GetSurface() (C++ only).
+ *
+ * Nothing is rebuilt while points, cells and this filter's properties stay as they are: a second
+ * Update(), another colour array or a moved camera cost next to nothing. "As they are" goes by the
+ * modification times of the vtkPoints and vtkCellArray objects; code that writes into their memory
+ * has to call their Modified().
+ *
+ * Errors: an input without polygons, a point that is not finite, a cell that names a point that
+ * does not exist, and a surface without area each give an error that says where and what to do, an
+ * empty output and no surface. A surface that was handed out earlier stays valid for who holds it.
+ *
+ * Composite inputs are taken one block after the other: every block of the output is clean, and
+ * GetSurface() is that of the last block. Not for surfaces of more than 2^31 - 1 corners.
+ *
+ * All methods are for the GUI thread. The surface may be read in any thread.
+ *
+ * The method: C. B. Zilles and J. K. Salisbury, "A Constraint-based God-object Method For Haptic
+ * Display", 1995, which needs triangles.
+ *
+ * @sa vtkGodObjectTrace vtkHapticScene
+ */
+
+#ifndef vtkGodObjectFilter_h
+#define vtkGodObjectFilter_h
+
+#include "vtkHapticsFiltersModule.h"
+#include "vtkPolyDataAlgorithm.h"
+
+#ifndef __VTK_WRAP__
+#include "TriangleSurface.h" // for haptics::TriangleSurface
+
+#include <memory> // for std::shared_ptr
+#endif
+
+class VTKHAPTICSFILTERS_EXPORT vtkGodObjectFilter : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkGodObjectFilter* New();
+  vtkTypeMacro(vtkGodObjectFilter, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum SideType
+  {
+    FRONT = 0,         ///< only the side that the normals point to, as in the paper
+    BOTH = 1,          ///< no path crosses any triangle, from either side
+    AUTOMATIC_SIDE = 2 ///< FRONT where closed, oriented and not inside out; BOTH elsewhere
+  };
+
+  enum EngineType
+  {
+    AUTOMATIC_ENGINE = 0, ///< by the number of triangles
+    BRUTE_FORCE = 1,      ///< looks at every triangle
+    EMBREE = 2,           ///< Embree's bounding volume hierarchy
+    EXACT = 3             ///< CGAL's tree; an error in builds without it
+  };
+
+  ///@{
+  /**
+   * @brief Which side of the triangles can be touched. Default AUTOMATIC_SIDE; other values are
+   * clamped. GetTouchedSide() tells what it came to.
+   */
+  vtkSetClampMacro(Side, int, FRONT, AUTOMATIC_SIDE);
+  vtkGetMacro(Side, int);
+  void SetSideToFront() { this->SetSide(FRONT); }
+  void SetSideToBoth() { this->SetSide(BOTH); }
+  void SetSideToAutomatic() { this->SetSide(AUTOMATIC_SIDE); }
+  ///@}
+
+  ///@{
+  /**
+   * @brief What finds the triangles near the god-object; all give the same contact. Default
+   * AUTOMATIC_ENGINE; other values are clamped.
+   */
+  vtkSetClampMacro(Engine, int, AUTOMATIC_ENGINE, EXACT);
+  vtkGetMacro(Engine, int);
+  void SetEngineToAutomatic() { this->SetEngine(AUTOMATIC_ENGINE); }
+  void SetEngineToBruteForce() { this->SetEngine(BRUTE_FORCE); }
+  void SetEngineToEmbree() { this->SetEngine(EMBREE); }
+  void SetEngineToExact() { this->SetEngine(EXACT); }
+  ///@}
+
+  ///@{
+  /**
+   * @brief Points no farther apart than this become one. Default 0: only points whose float64
+   * coordinates are equal. Range: 0 to 1e100; other values are clamped.
+   * A fraction of the diagonal of the surface's bounds, or a length [world unit] where
+   * MergeToleranceIsAbsolute is on (default off).
+   */
+  vtkSetClampMacro(MergeTolerance, double, 0.0, 1e100);
+  vtkGetMacro(MergeTolerance, double);
+  vtkSetMacro(MergeToleranceIsAbsolute, bool);
+  vtkGetMacro(MergeToleranceIsAbsolute, bool);
+  vtkBooleanMacro(MergeToleranceIsAbsolute, bool);
+  ///@}
+
+  ///@{
+  /**
+   * @brief The widest gap between facets that still feels closed [world unit].
+   * With AutomaticCrackWidth (default on) it is 2^-21 of the largest absolute coordinate for points
+   * stored as float32, which is eight times their rounding, and 0 for float64; CrackWidth is then
+   * ignored. CrackWidth: default 0, range 0 to 1e100, other values are clamped.
+   */
+  vtkSetMacro(AutomaticCrackWidth, bool);
+  vtkGetMacro(AutomaticCrackWidth, bool);
+  vtkBooleanMacro(AutomaticCrackWidth, bool);
+  vtkSetClampMacro(CrackWidth, double, 0.0, 1e100);
+  vtkGetMacro(CrackWidth, double);
+  ///@}
+
+#ifndef __VTK_WRAP__
+  /**
+   * @brief The surface as of the last Update(); null before, and after an error or an abort.
+   */
+  std::shared_ptr<const haptics::TriangleSurface> GetSurface() const;
+#endif
+
+  /**
+   * @brief How often a surface has been built, successfully or not, since this filter was made.
+   */
+  vtkGetMacro(NumberOfBuilds, vtkIdType);
+
+  ///@{
+  /**
+   * @brief What the last Update() found and mended; all zero or false without a surface.
+   * Each is also a field data array of the output, named without "GetNumberOf" or "Get".
+   */
+  vtkIdType GetNumberOfMergedPoints() const;        ///< points that another one now stands for
+  vtkIdType GetNumberOfUnusedPoints() const;        ///< points of no triangle
+  vtkIdType GetNumberOfDegenerateTriangles() const; ///< pieces of cells without area, dropped
+  vtkIdType GetNumberOfDuplicateTriangles() const;  ///< same corners and orientation, dropped
+  vtkIdType GetNumberOfFoldedPolygons() const;      ///< crossing themselves, split into a fan
+  vtkIdType GetNumberOfGhostCells() const;          ///< ghosts and blanked cells, dropped
+  vtkIdType GetNumberOfBoundaryEdges() const;       ///< edges of one triangle
+  vtkIdType GetNumberOfNonManifoldEdges() const;    ///< edges of more than two triangles
+  vtkIdType GetNumberOfFlippedEdges() const;        ///< between triangles of opposite orientation
+  vtkIdType GetNumberOfComponents() const;          ///< pieces connected through edges
+  vtkIdType GetNumberOfInsideOutComponents() const; ///< closed, with normals pointing inwards
+  bool GetClosed() const;                           ///< no boundary and no non-manifold edge
+  bool GetOriented() const;                         ///< no flipped and no non-manifold edge
+  int GetTouchedSide() const;                       ///< FRONT or BOTH
+  int GetEngineInUse() const;                       ///< what AUTOMATIC_ENGINE came to
+  double GetCrackWidthInUse() const;                ///< [world unit]
+  ///@}
+
+  ///@{
+  /**
+   * @brief "Front", "Both"; "BruteForce", "Embree", "Exact"; empty without a surface.
+   */
+  const char* GetTouchedSideAsString() const;
+  const char* GetEngineInUseAsString() const;
+  ///@}
+
+protected:
+  vtkGodObjectFilter();
+  ~vtkGodObjectFilter() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+private:
+  vtkGodObjectFilter(const vtkGodObjectFilter&) = delete;
+  void operator=(const vtkGodObjectFilter&) = delete;
+
+  class vtkInternals;
+  std::unique_ptr<vtkInternals> Internals;
+
+  bool Build(vtkPolyData* input);
+  void AddReport(vtkPolyData* output) const;
+
+  int Side = AUTOMATIC_SIDE;
+  int Engine = AUTOMATIC_ENGINE;
+  double MergeTolerance = 0.0;
+  bool MergeToleranceIsAbsolute = false;
+  bool AutomaticCrackWidth = true;
+  double CrackWidth = 0.0;
+  vtkIdType NumberOfBuilds = 0;
+};
+
+#endif

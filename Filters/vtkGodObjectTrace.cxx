@@ -1,0 +1,286 @@
+#include "vtkGodObjectTrace.h"
+
+#include "vtkGodObjectFilter.h"
+
+#include "ForceModel.h"
+#include "GodObject.h"
+
+#include "vtkAlgorithmOutput.h"
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace
+{
+constexpr vtkIdType TicksPerProgress = 1024;
+
+template <typename Array>
+vtkSmartPointer<Array> NewArray(const char* name, int components, vtkIdType tuples)
+{
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(tuples);
+  return array;
+}
+
+/// The constraint that pushes most against the HIP, of those of a touching contact.
+const haptics::Constraint& StrongestConstraint(const haptics::Contact& contact)
+{
+  const auto push = [&contact](const haptics::Constraint& constraint) {
+    const haptics::Vec3& n = constraint.Normal;
+    const haptics::Vec3& d = contact.Displacement;
+    return n[0] * d[0] + n[1] * d[1] + n[2] * d[2];
+  };
+  return *std::max_element(contact.Constraints.begin(),
+    contact.Constraints.begin() + contact.NumberOfConstraints,
+    [&push](const haptics::Constraint& a, const haptics::Constraint& b) {
+      return push(a) < push(b);
+    });
+}
+
+/// The vtkGodObjectFilter whose output reaches the port unchanged, or null. ParaView puts a
+/// vtkPVPostFilter, which passes points and cells on, behind every filter.
+vtkGodObjectFilter* FindPreparation(vtkAlgorithm* consumer, int port)
+{
+  vtkAlgorithm* producer = consumer->GetInputAlgorithm(port, 0);
+  while (producer && producer->IsA("vtkPVPostFilter") &&
+    producer->GetNumberOfInputConnections(0) > 0)
+  {
+    producer = producer->GetInputAlgorithm(0, 0);
+  }
+  return vtkGodObjectFilter::SafeDownCast(producer);
+}
+}
+
+vtkStandardNewMacro(vtkGodObjectTrace);
+
+vtkGodObjectTrace::vtkGodObjectTrace()
+{
+  this->SetNumberOfInputPorts(2);
+}
+
+vtkGodObjectTrace::~vtkGodObjectTrace() = default;
+
+int vtkGodObjectTrace::FillInputPortInformation(int port, vtkInformation* info)
+{
+  // Optional, so that RequestData can say which one is missing, and for what.
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  return this->Superclass::FillInputPortInformation(port, info);
+}
+
+void vtkGodObjectTrace::SetSurfaceConnection(vtkAlgorithmOutput* surface)
+{
+  this->SetInputConnection(1, surface);
+}
+
+void vtkGodObjectTrace::SetSurfaceData(vtkPolyData* surface)
+{
+  this->SetInputData(1, surface);
+}
+
+void vtkGodObjectTrace::SetSide(int side)
+{
+  const int before = this->GetSide();
+  this->Preparation->SetSide(side);
+  if (this->GetSide() != before)
+  {
+    this->Modified();
+  }
+}
+
+int vtkGodObjectTrace::GetSide() const
+{
+  return this->Preparation->GetSide();
+}
+
+void vtkGodObjectTrace::SetEngine(int engine)
+{
+  const int before = this->GetEngine();
+  this->Preparation->SetEngine(engine);
+  if (this->GetEngine() != before)
+  {
+    this->Modified();
+  }
+}
+
+int vtkGodObjectTrace::GetEngine() const
+{
+  return this->Preparation->GetEngine();
+}
+
+vtkGodObjectFilter* vtkGodObjectTrace::PrepareSurface(vtkPolyData* surface)
+{
+  vtkGodObjectFilter* upstream = FindPreparation(this, 1);
+  if (upstream && upstream->GetSurface() &&
+    upstream->GetOutput()->GetPoints() == surface->GetPoints() &&
+    upstream->GetOutput()->GetNumberOfPolys() == surface->GetNumberOfPolys())
+  {
+    return upstream;
+  }
+  // Only points and cells: the filter inside must not copy data that nobody will read.
+  vtkNew<vtkPolyData> geometry;
+  geometry->CopyStructure(surface);
+  geometry->GetCellData()->AddArray(surface->GetCellGhostArray());
+  this->Preparation->SetInputData(geometry);
+  this->Preparation->Update();
+  return this->Preparation;
+}
+
+bool vtkGodObjectTrace::CheckPath(vtkPolyData* path)
+{
+  if (!path || path->GetNumberOfPoints() == 0)
+  {
+    vtkErrorMacro("There is no path to follow: port 0 has no points. Give it a vtkPolyData whose "
+                  "points are the positions of the haptic interface point, in order.");
+    return false;
+  }
+  for (vtkIdType i = 0; i < path->GetNumberOfPoints(); ++i)
+  {
+    double hip[3];
+    path->GetPoint(i, hip);
+    if (!std::isfinite(hip[0]) || !std::isfinite(hip[1]) || !std::isfinite(hip[2]))
+    {
+      vtkErrorMacro("Point " << i << " of the path is (" << hip[0] << ", " << hip[1] << ", "
+                             << hip[2] << "), the first that is not finite. Remove it, or mend "
+                             << "the source of port 0.");
+      return false;
+    }
+  }
+  return true;
+}
+
+int vtkGodObjectTrace::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkPolyData* path = vtkPolyData::GetData(inputVector[0]);
+  vtkPolyData* surface = vtkPolyData::GetData(inputVector[1]);
+  vtkPolyData* output = vtkPolyData::GetData(outputVector);
+  if (!this->CheckPath(path))
+  {
+    return 1;
+  }
+  if (!surface)
+  {
+    vtkErrorMacro("There is no surface to touch: port 1 has no input. Connect a vtkPolyData with "
+                  "polygons or strips.");
+    return 1;
+  }
+  vtkGodObjectFilter* prepared = this->PrepareSurface(surface);
+  if (!prepared->GetSurface())
+  {
+    vtkErrorMacro("The surface at port 1 cannot be touched; the error before this one says why.");
+    return 1;
+  }
+  this->Replay(path, prepared, output);
+  return 1;
+}
+
+void vtkGodObjectTrace::Replay(vtkPolyData* path, vtkGodObjectFilter* prepared, vtkPolyData* output)
+{
+  const vtkIdType ticks = path->GetNumberOfPoints();
+  auto positions = NewArray<vtkDoubleArray>("Points", 3, ticks);
+  auto hips = NewArray<vtkDoubleArray>("HapticInterfacePoint", 3, ticks);
+  auto forces = NewArray<vtkDoubleArray>("Force", 3, ticks);
+  auto constraints = NewArray<vtkIntArray>("ActiveConstraints", 1, ticks);
+  auto cells = NewArray<vtkIdTypeArray>("OriginalCellId", 1, ticks);
+  auto penetrations = NewArray<vtkDoubleArray>("Penetration", 1, ticks);
+  vtkIdTypeArray* originalCells = vtkIdTypeArray::SafeDownCast(
+    prepared->GetOutput()->GetCellData()->GetAbstractArray("OriginalCellId"));
+
+  haptics::GodObject godObject({ prepared->GetSurface() });
+  haptics::ForceModel model;
+  model.Stiffness = this->Stiffness;
+  model.MaximumForce = this->MaximumForce;
+  vtkIdType heldTicks = 0;
+  vtkIdType refusedTicks = 0;
+  for (vtkIdType i = 0; i < ticks; ++i)
+  {
+    if (i % TicksPerProgress == 0)
+    {
+      this->UpdateProgress(static_cast<double>(i) / static_cast<double>(ticks));
+      if (this->GetAbortExecute())
+      {
+        return;
+      }
+    }
+    haptics::Vec3 hip;
+    path->GetPoint(i, hip.data());
+    const haptics::Contact& contact = godObject.Update(hip);
+    heldTicks += contact.Status == haptics::UpdateStatus::Overloaded ? 1 : 0;
+    refusedTicks += contact.Status == haptics::UpdateStatus::InvalidHip ? 1 : 0;
+    haptics::Vec3 displacement = contact.Displacement;
+    for (double& component : displacement)
+    {
+      component *= this->WorldToDeviceScale;
+    }
+    positions->SetTypedTuple(i, contact.Position.data());
+    hips->SetTypedTuple(i, hip.data());
+    forces->SetTypedTuple(i, model.Force(displacement).data());
+    constraints->SetValue(i, contact.NumberOfConstraints);
+    cells->SetValue(i, contact.NumberOfConstraints > 0
+        ? originalCells->GetValue(StrongestConstraint(contact).Triangle)
+        : -1);
+    penetrations->SetValue(i, contact.Penetration);
+  }
+  if (heldTicks > 0)
+  {
+    vtkWarningMacro(<< heldTicks << " of " << ticks << " ticks met more triangles in one place than "
+                    << "a tick may look at; the god-object waited there.");
+  }
+  if (refusedTicks > 0)
+  {
+    vtkWarningMacro(<< refusedTicks << " of " << ticks << " positions of the path are too far from "
+                    << "the surface to be followed; the god-object waited.");
+  }
+
+  vtkNew<vtkPoints> points;
+  points->SetData(positions);
+  vtkNew<vtkCellArray> line;
+  line->InsertNextCell(static_cast<int>(ticks));
+  for (vtkIdType i = 0; i < ticks; ++i)
+  {
+    line->InsertCellPoint(i);
+  }
+  output->SetPoints(points);
+  if (ticks > 1)
+  {
+    output->SetLines(line);
+  }
+  else
+  {
+    output->SetVerts(line);
+  }
+  vtkPointData* data = output->GetPointData();
+  data->PassData(path->GetPointData());
+  data->AddArray(hips);
+  data->AddArray(forces);
+  data->AddArray(constraints);
+  data->AddArray(cells);
+  data->AddArray(penetrations);
+  this->UpdateProgress(1.0);
+}
+
+void vtkGodObjectTrace::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Stiffness: " << this->Stiffness << " N/m\n";
+  os << indent << "MaximumForce: " << this->MaximumForce << " N\n";
+  os << indent << "WorldToDeviceScale: " << this->WorldToDeviceScale << " m\n";
+  os << indent << "Preparation:\n";
+  this->Preparation->PrintSelf(os, indent.GetNextIndent());
+}

@@ -1,0 +1,115 @@
+/**
+ * @class   vtkGodObjectTrace
+ * @brief   replays a path of haptic interface points over a surface, without a device
+ *
+ * Port 0: a vtkPolyData whose points, in the order of their ids, are the positions of the haptic
+ * interface point (HIP), one a servo tick [world]. Its cells are not looked at. Port 1: the surface,
+ * any vtkPolyData. Where that comes from a vtkGodObjectFilter, its surface is used as it is,
+ * with that filter's side and engine; otherwise a vtkGodObjectFilter inside prepares it, with the
+ * properties of this class.
+ *
+ * The output is the polyline of the god-object [world], one point for each HIP, with the point data
+ * of the path (such as `Time` [s]) and:
+ *
+ * - `HapticInterfacePoint` (3): the HIP [world];
+ * - `Force` (3): what the hand would feel [N], along the world's axes; see haptics::ForceModel;
+ * - `ActiveConstraints`: how many planes hold the god-object back, 0 to 3;
+ * - `OriginalCellId`: the cell touched, -1 in free space. Of several, the one that pushes most. It
+ *   counts the cells of port 1, or of the input of the vtkGodObjectFilter that port 1 comes from;
+ * - `Penetration`: distance from HIP to god-object [world unit].
+ *
+ * The first HIP is taken as free space, whichever side of the surface it lies on. The same inputs
+ * give the same output, bit for bit.
+ *
+ * Errors: a missing or empty path, a path point that is not finite, and all errors of
+ * vtkGodObjectFilter give an error that says where and what to do, and an empty output. Not for live
+ * devices: see vtkHapticServo.
+ *
+ * All methods are for the GUI thread.
+ *
+ * @sa vtkGodObjectFilter
+ */
+
+#ifndef vtkGodObjectTrace_h
+#define vtkGodObjectTrace_h
+
+#include "vtkHapticsFiltersModule.h"
+#include "vtkNew.h" // for vtkNew
+#include "vtkPolyDataAlgorithm.h"
+
+class vtkGodObjectFilter;
+
+class VTKHAPTICSFILTERS_EXPORT vtkGodObjectTrace : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkGodObjectTrace* New();
+  vtkTypeMacro(vtkGodObjectTrace, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * @brief The surface, port 1.
+   */
+  void SetSurfaceConnection(vtkAlgorithmOutput* surface);
+  void SetSurfaceData(vtkPolyData* surface);
+  ///@}
+
+  ///@{
+  /**
+   * @brief Stiffness of the spring between HIP and god-object, in the device frame [N/m].
+   * Default 500; range 0 to 1e100, other values are clamped.
+   */
+  vtkSetClampMacro(Stiffness, double, 0.0, 1e100);
+  vtkGetMacro(Stiffness, double);
+  ///@}
+
+  ///@{
+  /**
+   * @brief A longer force is shortened to this [N], its direction kept. Default 3.3, what common
+   * desktop devices give; range 0 to 1e100, other values are clamped.
+   */
+  vtkSetClampMacro(MaximumForce, double, 0.0, 1e100);
+  vtkGetMacro(MaximumForce, double);
+  ///@}
+
+  ///@{
+  /**
+   * @brief Metres in the device frame for one world unit [m]. Default 1; range 1e-100 to 1e100,
+   * other values are clamped.
+   */
+  vtkSetClampMacro(WorldToDeviceScale, double, 1e-100, 1e100);
+  vtkGetMacro(WorldToDeviceScale, double);
+  ///@}
+
+  ///@{
+  /**
+   * @brief As in vtkGodObjectFilter, for surfaces that do not come from one.
+   */
+  void SetSide(int side);
+  int GetSide() const;
+  void SetEngine(int engine);
+  int GetEngine() const;
+  ///@}
+
+protected:
+  vtkGodObjectTrace();
+  ~vtkGodObjectTrace() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+private:
+  vtkGodObjectTrace(const vtkGodObjectTrace&) = delete;
+  void operator=(const vtkGodObjectTrace&) = delete;
+
+  vtkGodObjectFilter* PrepareSurface(vtkPolyData* surface);
+  bool CheckPath(vtkPolyData* path);
+  void Replay(vtkPolyData* path, vtkGodObjectFilter* prepared, vtkPolyData* output);
+
+  vtkNew<vtkGodObjectFilter> Preparation;
+  double Stiffness = 500.0;
+  double MaximumForce = 3.3;
+  double WorldToDeviceScale = 1.0;
+};
+
+#endif
