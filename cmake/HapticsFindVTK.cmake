@@ -20,7 +20,7 @@ function (haptics_link_debian_paraview package_dir prefix)
     string(REGEX MATCHALL "(import_prefix|_IMPORT_PREFIX)}/[^\";> )$]+" matches "${lines}")
     list(APPEND named_paths ${matches})
   endforeach ()
-  list(TRANSFORM named_paths REPLACE "^[^/]*/" "")
+  list(TRANSFORM named_paths REPLACE "^(import_prefix|_IMPORT_PREFIX)}/" "")
   list(REMOVE_DUPLICATES named_paths)
   # Shortest first: a folder that is named itself becomes one link. /usr/include must not become
   # one, since the compiler would then search it before its own headers.
