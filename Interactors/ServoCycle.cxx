@@ -1,0 +1,128 @@
+#include "ServoCycle.h"
+
+#include "DeviceChannel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace haptics
+{
+namespace
+{
+bool IsFinite(const Vec3& v) noexcept
+{
+  return std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); });
+}
+}
+
+ServoCycle::ServoCycle(std::size_t records)
+  : Records(records)
+{
+}
+
+ServoCycle::~ServoCycle() = default;
+
+std::size_t ServoCycle::Drain(std::vector<TickRecord>& records)
+{
+  std::size_t drained = 0;
+  // At most what the ring holds: a servo that goes on pushing cannot keep the caller here.
+  for (TickRecord record; drained < this->Records.Capacity() && this->Records.Pop(record);
+       ++drained)
+  {
+    records.push_back(record);
+  }
+  return drained;
+}
+
+void ServoCycle::Begin(std::shared_ptr<DeviceChannel> channel, ServoState state)
+{
+  for (TickRecord old; this->Records.Pop(old);)
+  {
+  }
+  this->Lost.store(0, std::memory_order_relaxed);
+  this->Channel = std::move(channel);
+  this->Now = TickRecord();
+  this->MustPlace = true;
+  this->State.store(state, std::memory_order_release);
+}
+
+bool ServoCycle::Tick(double time) noexcept
+{
+  DeviceSample sample;
+  if (!this->Channel->Read(time, sample))
+  {
+    this->End(ServoState::DeviceLost);
+    return false;
+  }
+  if (!IsFinite(sample.Position))
+  {
+    this->End(ServoState::InvalidPosition);
+    return false;
+  }
+
+  this->NextSettings.Update();
+  const ServoSettings& settings = this->NextSettings.Get();
+  NumberedGodObject& god = this->Exchange.Take();
+  const Vec3 hip = settings.DeviceToWorld.PointToWorld(sample.Position);
+  if (this->MustPlace || this->Placements != settings.Placements)
+  {
+    god.Object->Place(hip);
+    this->MustPlace = false;
+    this->Placements = settings.Placements;
+  }
+
+  const Contact& contact = god.Object->Update(hip);
+  Vec3 force{};
+  if (contact.Status != UpdateStatus::InvalidHip)
+  {
+    const Vec3 displacement = settings.DeviceToWorld.VectorToDevice(contact.Displacement);
+    if (!IsFinite(displacement))
+    {
+      this->End(ServoState::InvalidForce);
+      return false;
+    }
+    force = settings.Force.Force(displacement);
+  }
+  this->Channel->Write(force);
+
+  this->Now.Time = time;
+  this->Now.DevicePosition = sample.Position;
+  this->Now.Buttons = sample.Buttons;
+  this->Record(god, force);
+  return true;
+}
+
+void ServoCycle::Record(NumberedGodObject& god, const Vec3& force) noexcept
+{
+  const Contact& contact = god.Object->Current();
+  this->Now.Force = force;
+  this->Now.WorldForce = this->NextSettings.Get().DeviceToWorld.DirectionToWorld(force);
+  this->Now.Hip = contact.Hip;
+  this->Now.GodObject = contact.Position;
+  this->Now.Penetration = contact.Penetration;
+  this->Now.Status = contact.Status;
+  this->Now.NumberOfConstraints = contact.NumberOfConstraints;
+  this->Now.Constraints = contact.Constraints;
+  this->Now.Generation = god.Generation;
+
+  this->Latest.Publish(this->Now);
+  if (!this->Records.Push(this->Now))
+  {
+    this->Lost.store(this->Lost.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+  }
+  ++this->Now.Tick;
+}
+
+void ServoCycle::End(ServoState state) noexcept
+{
+  this->Channel->Write({});
+  if (this->Now.Tick > 0) // else there is nothing that this run could tell
+  {
+    this->Now.Force = {};
+    this->Now.WorldForce = {};
+    this->Latest.Publish(this->Now);
+  }
+  this->State.store(state, std::memory_order_release);
+}
+}

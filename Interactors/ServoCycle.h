@@ -1,0 +1,106 @@
+#ifndef ServoCycle_h
+#define ServoCycle_h
+
+#include "ForceModel.h"
+#include "GodObjectExchange.h"
+#include "LatestValue.h"
+#include "RingBuffer.h"
+#include "TickRecord.h"
+#include "WorkspaceTransform.h"
+#include "vtkHapticsInteractorsModule.h"
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace haptics
+{
+class DeviceChannel;
+
+/// What a servo is doing, or why it asks for no force any more.
+enum class ServoState
+{
+  Stopped,         ///< not started, or stopped on request
+  Running,         ///< ticking on its own thread
+  Stepping,        ///< ticking in virtual time on the caller's thread
+  DeviceLost,      ///< the device did not answer
+  InvalidPosition, ///< the device told a position that is not finite
+  InvalidForce,    ///< the god-object's displacement is not finite in the device frame
+  Stalled          ///< two ticks were too far apart
+};
+
+/// What the GUI thread may change between two ticks.
+struct ServoSettings
+{
+  WorkspaceTransform DeviceToWorld;
+  ForceModel Force;             ///< the device's limits already applied
+  std::uint64_t Placements = 0; ///< whenever it changes the god-object starts anew at the HIP
+};
+
+/// @brief One servo tick: position in, god-object, force out. Knows nothing of time or threads.
+///
+///     Read -> device to world -> GodObject::Update -> world to device -> ForceModel -> Write
+///
+/// The first group of methods is the GUI thread's, the second the servo thread's; both may run at
+/// once, and none of the second allocates, locks or logs. Any fault asks for zero force in the same
+/// tick.
+class VTKHAPTICSINTERACTORS_EXPORT ServoCycle
+{
+public:
+  /// Keeps up to `records` ticks that were not yet drained.
+  explicit ServoCycle(std::size_t records);
+  ~ServoCycle();
+  ServoCycle(const ServoCycle&) = delete;
+  ServoCycle& operator=(const ServoCycle&) = delete;
+
+  ///@{
+  /// GUI thread, at any time.
+  void Configure(const ServoSettings& settings) { this->NextSettings.Publish(settings); }
+  GodObjectExchange& GetExchange() { return this->Exchange; }
+  /// Takes the latest record; true where there is a newer one than at the last call.
+  bool UpdateLatest() { return this->Latest.Update(); }
+  const TickRecord& GetLatest() const { return this->Latest.Get(); }
+  /// Appends the records since the last call, oldest first, and returns their number.
+  std::size_t Drain(std::vector<TickRecord>& records);
+  /// Records that were lost since Begin() because nobody drained them.
+  std::uint64_t GetNumberOfLostRecords() const
+  {
+    return this->Lost.load(std::memory_order_relaxed);
+  }
+  /// Any thread.
+  ServoState GetState() const { return this->State.load(std::memory_order_acquire); }
+  ///@}
+
+  /// Readies the next run with a device and forgets the records of the last. GUI thread, while no
+  /// servo thread runs.
+  void Begin(std::shared_ptr<DeviceChannel> channel, ServoState state);
+
+  ///@{
+  /// Servo thread.
+  /// Runs a tick at `time` [s] since the start. False: a fault; no force is asked for, GetState()
+  /// tells it, and the run is over.
+  bool Tick(double time) noexcept;
+  /// Ends the run: asks for zero force and becomes `state`.
+  void End(ServoState state) noexcept;
+  ///@}
+
+private:
+  void Record(NumberedGodObject& god, const Vec3& force) noexcept;
+
+  GodObjectExchange Exchange;
+  LatestValue<ServoSettings> NextSettings;
+  LatestValue<TickRecord> Latest;
+  RingBuffer<TickRecord> Records;
+  std::atomic<std::uint64_t> Lost{ 0 };
+  std::atomic<ServoState> State{ ServoState::Stopped };
+
+  // The servo thread's own.
+  std::shared_ptr<DeviceChannel> Channel;
+  TickRecord Now;
+  bool MustPlace = true;
+  std::uint64_t Placements = 0;
+};
+}
+
+#endif

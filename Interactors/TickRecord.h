@@ -1,0 +1,35 @@
+#ifndef TickRecord_h
+#define TickRecord_h
+
+#include "GodObject.h"
+#include "Vec3.h"
+
+#include <array>
+#include <cstdint>
+
+namespace haptics
+{
+/// What one servo tick saw and did. Plain memory, copied between threads.
+struct TickRecord
+{
+  std::uint64_t Tick = 0; ///< counted from 0 at the servo's start
+  double Time = 0.0;      ///< [s] since the servo's start
+
+  Vec3 DevicePosition{};     ///< HIP, device frame [m]
+  std::uint32_t Buttons = 0; ///< bit i is set while button i is held
+  Vec3 Force{};              ///< asked for, device frame [N]
+
+  Vec3 Hip{};               ///< world frame
+  Vec3 GodObject{};         ///< world frame
+  Vec3 WorldForce{};        ///< the force along the world's axes [N]
+  double Penetration = 0.0; ///< |god-object - HIP| [world unit]
+
+  UpdateStatus Status = UpdateStatus::Free;
+  int NumberOfConstraints = 0;           ///< 0 to 3
+  std::array<Constraint, 3> Constraints; ///< the first NumberOfConstraints are valid
+  /// Which published god-object the constraints' surface indices belong to; 0: none yet.
+  std::uint64_t Generation = 0;
+};
+}
+
+#endif

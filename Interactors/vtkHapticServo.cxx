@@ -1,0 +1,490 @@
+#include "vtkHapticServo.h"
+
+#include "MonotonicClock.h"
+#include "RealTimePriority.h"
+#include "ServoCycle.h"
+#include "ServoLoop.h"
+#include "ServoStatistics.h"
+
+#include "vtkHapticDevice.h"
+#include "vtkMatrix4x4.h"
+#include "vtkObjectFactory.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace
+{
+constexpr std::size_t RecordsKept = 16384;
+constexpr double NanosecondsInSecond = 1e9;
+
+static_assert(static_cast<int>(haptics::ServoState::Stalled) == vtkHapticServo::Stalled &&
+    static_cast<int>(haptics::ServoState::DeviceLost) == vtkHapticServo::DeviceLost &&
+    static_cast<int>(haptics::ServoState::Stepping) == vtkHapticServo::Stepping,
+  "both list the same states");
+
+void Copy(const haptics::Vec3& from, double to[3])
+{
+  std::copy(from.begin(), from.end(), to);
+}
+
+/// What a fault means and what to do.
+const char* Explain(int state)
+{
+  switch (state)
+  {
+    case vtkHapticServo::DeviceLost:
+      return "The device was closed or stopped answering, so the servo stopped with zero force. "
+             "Open the device and start again.";
+    case vtkHapticServo::InvalidPosition:
+      return "The device told a position that is not finite, so the servo stopped with zero force. "
+             "Check the device's calibration and start again.";
+    case vtkHapticServo::InvalidForce:
+      return "The god-object's displacement is not finite in the device frame, so the servo "
+             "stopped with zero force. Check the scale of the workspace transform and start again.";
+    case vtkHapticServo::Stalled:
+      return "Two ticks were further apart than StallLimit, so the servo stopped with zero force. "
+             "Relieve the machine or give the servo real-time priority, and start again.";
+    default:
+      return "";
+  }
+}
+}
+
+class vtkHapticServo::Internals
+{
+public:
+  haptics::ServoCycle Cycle{ RecordsKept };
+  haptics::ServoStatistics Statistics;
+  haptics::ServoLoop Loop{ this->Cycle, this->Statistics }; // last: ends before the others
+  haptics::ServoSettings Settings;
+};
+
+vtkStandardNewMacro(vtkHapticServo);
+
+vtkHapticServo::vtkHapticServo()
+  : Internal(new Internals)
+{
+  this->Configure();
+}
+
+vtkHapticServo::~vtkHapticServo()
+{
+  this->Stop();
+}
+
+void vtkHapticServo::SetDevice(vtkHapticDevice* device)
+{
+  if (this->Device != device)
+  {
+    this->Stop();
+    this->Device = device;
+    this->Configure();
+    this->Modified();
+  }
+}
+
+vtkHapticDevice* vtkHapticServo::GetDevice()
+{
+  return this->Device;
+}
+
+void vtkHapticServo::SetStiffness(double stiffness)
+{
+  if (!std::isfinite(stiffness) || stiffness < 0.0)
+  {
+    vtkErrorMacro("The stiffness must be finite and not below 0 N/m, but is "
+      << stiffness << "; it stays " << this->Stiffness << " N/m.");
+    return;
+  }
+  if (this->Stiffness != stiffness)
+  {
+    this->Stiffness = stiffness;
+    this->Configure();
+    this->Modified();
+  }
+}
+
+void vtkHapticServo::SetMaximumForce(double force)
+{
+  if (!(force >= 0.0))
+  {
+    vtkErrorMacro("The maximum force must not be below 0 N, but is "
+      << force << "; it stays " << this->MaximumForce << " N.");
+    return;
+  }
+  if (this->MaximumForce != force)
+  {
+    this->MaximumForce = force;
+    this->Configure();
+    this->Modified();
+  }
+}
+
+double vtkHapticServo::GetEffectiveStiffness()
+{
+  return this->Device ? std::min(this->Stiffness, this->Device->GetMaximumStiffness())
+                      : this->Stiffness;
+}
+
+double vtkHapticServo::GetEffectiveMaximumForce()
+{
+  return this->Device ? std::min(this->MaximumForce, this->Device->GetMaximumForce())
+                      : this->MaximumForce;
+}
+
+bool vtkHapticServo::SetWorkspaceTransform(vtkMatrix4x4* deviceToWorld)
+{
+  if (!deviceToWorld)
+  {
+    vtkErrorMacro("The workspace transform is null; the last one stays.");
+    return false;
+  }
+  std::string error;
+  if (!this->Internal->Settings.DeviceToWorld.SetMatrix(deviceToWorld->GetData(), error))
+  {
+    vtkErrorMacro(<< error << " The last one stays.");
+    return false;
+  }
+  this->PlaceGodObject();
+  this->Modified();
+  return true;
+}
+
+void vtkHapticServo::GetWorkspaceTransform(vtkMatrix4x4* deviceToWorld)
+{
+  this->Internal->Settings.DeviceToWorld.GetMatrix(deviceToWorld->GetData());
+  deviceToWorld->Modified();
+}
+
+void vtkHapticServo::PlaceGodObject()
+{
+  ++this->Internal->Settings.Placements;
+  this->Configure();
+}
+
+void vtkHapticServo::Configure()
+{
+  this->Internal->Settings.Force.Stiffness = this->GetEffectiveStiffness();
+  this->Internal->Settings.Force.MaximumForce = this->GetEffectiveMaximumForce();
+  this->Internal->Cycle.Configure(this->Internal->Settings);
+}
+
+bool vtkHapticServo::Begin(int state)
+{
+  if (!this->Device || !this->Device->IsOpen())
+  {
+    this->Fail(this->Device ? "The device is not open. Call its Open() first."
+                            : "There is no device. Call SetDevice() first.");
+    return false;
+  }
+  this->Stop();
+  this->Configure(); // the device's limits may be others since it was opened
+  this->Internal->Statistics.Clear();
+  this->Internal->Cycle.Begin(this->Device->GetChannel(), static_cast<haptics::ServoState>(state));
+  this->ErrorMessage.clear();
+  return true;
+}
+
+bool vtkHapticServo::Start()
+{
+  if (this->IsRunning())
+  {
+    return true;
+  }
+  if (!this->Begin(Running))
+  {
+    return false;
+  }
+  haptics::ServoTiming timing;
+  timing.Period = static_cast<std::uint64_t>(std::llround(NanosecondsInSecond / this->Rate));
+  timing.StallLimit =
+    static_cast<std::uint64_t>(std::llround(NanosecondsInSecond * this->StallLimit));
+  timing.RealTimePriority = this->RealTimePriority;
+  std::string error;
+  if (!this->Internal->Loop.Start(timing, error))
+  {
+    this->Internal->Cycle.End(haptics::ServoState::Stopped);
+    this->Fail(error);
+    return false;
+  }
+  this->PriorityNote = this->RealTimePriority
+    ? haptics::DescribePriority(this->Internal->Loop.GetPriorityResult())
+    : "Real-time priority was not asked for.";
+  this->NoticeState(Running);
+  return true;
+}
+
+void vtkHapticServo::Stop()
+{
+  this->Internal->Loop.Stop();
+  if (this->Internal->Cycle.GetState() == haptics::ServoState::Stepping)
+  {
+    this->Internal->Cycle.End(haptics::ServoState::Stopped);
+  }
+  this->Update();
+}
+
+int vtkHapticServo::Step(int n)
+{
+  if (this->IsRunning())
+  {
+    this->Fail("The servo is running on its own thread. Call Stop() before Step().");
+    return 0;
+  }
+  if (n < 0)
+  {
+    this->Fail("The number of steps must not be below 0, but is " + std::to_string(n) + ".");
+    return 0;
+  }
+  if (this->Internal->Cycle.GetState() != haptics::ServoState::Stepping)
+  {
+    if (!this->Begin(Stepping))
+    {
+      return 0;
+    }
+    this->NextStep = 0;
+    this->StepPeriod = 1.0 / this->Rate;
+  }
+
+  const auto period =
+    static_cast<std::uint64_t>(std::llround(NanosecondsInSecond * this->StepPeriod));
+  int done = 0;
+  for (; done < n; ++done)
+  {
+    const std::uint64_t before = haptics::MonotonicNow();
+    if (!this->Internal->Cycle.Tick(static_cast<double>(this->NextStep) * this->StepPeriod))
+    {
+      break;
+    }
+    this->Internal->Statistics.AddTick(period, haptics::MonotonicNow() - before);
+    ++this->NextStep;
+  }
+  this->Update();
+  return done;
+}
+
+bool vtkHapticServo::IsRunning()
+{
+  return this->Internal->Cycle.GetState() == haptics::ServoState::Running;
+}
+
+bool vtkHapticServo::Update()
+{
+  this->Internal->Cycle.GetExchange().Collect();
+  if (this->Device)
+  {
+    this->Device->Update();
+  }
+  // The state is read first, so that the record of an end is there when the state tells of it.
+  const int state = static_cast<int>(this->Internal->Cycle.GetState());
+  const bool hasTicked = this->Internal->Cycle.UpdateLatest();
+  return this->NoticeState(state) || hasTicked;
+}
+
+bool vtkHapticServo::NoticeState(int state)
+{
+  if (state == this->State)
+  {
+    return false;
+  }
+  this->State = state;
+  const std::string explanation = Explain(state);
+  if (!explanation.empty())
+  {
+    this->Fail(explanation);
+  }
+  this->InvokeEvent(StateChangedEvent);
+  return true;
+}
+
+void vtkHapticServo::Fail(const std::string& message)
+{
+  this->ErrorMessage = message;
+  vtkErrorMacro(<< message);
+}
+
+const char* vtkHapticServo::GetStateAsString()
+{
+  static const char* const names[] = { "Stopped", "Running", "Stepping", "DeviceLost",
+    "InvalidPosition", "InvalidForce", "Stalled" };
+  return names[this->State];
+}
+
+void vtkHapticServo::GetHapticInterfacePoint(double position[3])
+{
+  Copy(this->GetLatestRecord().Hip, position);
+}
+
+void vtkHapticServo::GetGodObject(double position[3])
+{
+  Copy(this->GetLatestRecord().GodObject, position);
+}
+
+void vtkHapticServo::GetForce(double force[3])
+{
+  Copy(this->GetLatestRecord().Force, force);
+}
+
+void vtkHapticServo::GetWorldForce(double force[3])
+{
+  Copy(this->GetLatestRecord().WorldForce, force);
+}
+
+void vtkHapticServo::GetDevicePosition(double position[3])
+{
+  Copy(this->GetLatestRecord().DevicePosition, position);
+}
+
+unsigned int vtkHapticServo::GetButtons()
+{
+  return this->GetLatestRecord().Buttons;
+}
+
+double vtkHapticServo::GetPenetration()
+{
+  return this->GetLatestRecord().Penetration;
+}
+
+int vtkHapticServo::GetNumberOfConstraints()
+{
+  return this->GetLatestRecord().NumberOfConstraints;
+}
+
+double vtkHapticServo::GetTime()
+{
+  return this->GetLatestRecord().Time;
+}
+
+vtkTypeInt64 vtkHapticServo::GetNumberOfTicks()
+{
+  return static_cast<vtkTypeInt64>(this->GetReport().Ticks);
+}
+
+vtkTypeInt64 vtkHapticServo::GetNumberOfMissedTicks()
+{
+  return static_cast<vtkTypeInt64>(this->GetReport().MissedTicks);
+}
+
+double vtkHapticServo::GetMeasuredRate()
+{
+  return this->GetReport().Rate();
+}
+
+double vtkHapticServo::GetMeanPeriod()
+{
+  return this->GetReport().MeanPeriod;
+}
+
+double vtkHapticServo::GetPeriodRatio()
+{
+  return this->GetReport().PeriodRatio;
+}
+
+double vtkHapticServo::GetMaximumPeriod()
+{
+  return this->GetReport().MaximumPeriod;
+}
+
+double vtkHapticServo::GetPeriodQuantile(double fraction)
+{
+  return haptics::Quantile(this->GetReport().Periods, fraction);
+}
+
+double vtkHapticServo::GetTickTimeQuantile(double fraction)
+{
+  return haptics::Quantile(this->GetReport().TickTimes, fraction);
+}
+
+double vtkHapticServo::GetMaximumTickTime()
+{
+  return this->GetReport().MaximumTickTime;
+}
+
+int vtkHapticServo::GetNumberOfHistogramBins()
+{
+  return haptics::LogHistogram::NumberOfBins;
+}
+
+double vtkHapticServo::GetHistogramEdge(int bin)
+{
+  return bin < 0 || bin > haptics::LogHistogram::NumberOfBins
+    ? 0.0
+    : static_cast<double>(haptics::LogHistogram::LowerEdge(bin)) / NanosecondsInSecond;
+}
+
+vtkTypeInt64 vtkHapticServo::GetPeriodCount(int bin)
+{
+  return bin < 0 || bin >= haptics::LogHistogram::NumberOfBins
+    ? 0
+    : static_cast<vtkTypeInt64>(this->GetReport().Periods[static_cast<std::size_t>(bin)]);
+}
+
+vtkTypeInt64 vtkHapticServo::GetTickTimeCount(int bin)
+{
+  return bin < 0 || bin >= haptics::LogHistogram::NumberOfBins
+    ? 0
+    : static_cast<vtkTypeInt64>(this->GetReport().TickTimes[static_cast<std::size_t>(bin)]);
+}
+
+vtkTypeInt64 vtkHapticServo::GetNumberOfLostRecords()
+{
+  return static_cast<vtkTypeInt64>(this->Internal->Cycle.GetNumberOfLostRecords());
+}
+
+std::uint64_t vtkHapticServo::PublishGodObject(std::unique_ptr<haptics::GodObject> godObject)
+{
+  if (!godObject)
+  {
+    vtkErrorMacro("The god-object to publish is null; the last one stays.");
+    return 0;
+  }
+  return this->Internal->Cycle.GetExchange().Publish(std::move(godObject));
+}
+
+std::size_t vtkHapticServo::DrainRecords(std::vector<haptics::TickRecord>& records)
+{
+  return this->Internal->Cycle.Drain(records);
+}
+
+const haptics::TickRecord& vtkHapticServo::GetLatestRecord() const
+{
+  return this->Internal->Cycle.GetLatest();
+}
+
+haptics::ServoReport vtkHapticServo::GetReport() const
+{
+  return this->Internal->Statistics.Report();
+}
+
+void vtkHapticServo::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  const haptics::TickRecord& tick = this->GetLatestRecord();
+  const haptics::ServoReport report = this->GetReport();
+  const auto print = [&os, indent](const char* name, const haptics::Vec3& v, const char* unit)
+  { os << indent << name << ": (" << v[0] << ", " << v[1] << ", " << v[2] << ")" << unit << "\n"; };
+  os << indent << "Device: " << this->Device.Get() << "\n";
+  os << indent << "Rate: " << this->Rate << " Hz\n";
+  os << indent << "RealTimePriority: " << (this->RealTimePriority ? "on" : "off") << "\n";
+  os << indent << "PriorityNote: " << this->PriorityNote << "\n";
+  os << indent << "StallLimit: " << this->StallLimit << " s\n";
+  os << indent << "Stiffness: " << this->Stiffness << " N/m, in effect "
+     << this->GetEffectiveStiffness() << " N/m\n";
+  os << indent << "MaximumForce: " << this->MaximumForce << " N, in effect "
+     << this->GetEffectiveMaximumForce() << " N\n";
+  os << indent << "State: " << this->GetStateAsString() << "\n";
+  os << indent << "ErrorMessage: " << this->ErrorMessage << "\n";
+  print("HapticInterfacePoint", tick.Hip, "");
+  print("GodObject", tick.GodObject, "");
+  print("Force", tick.Force, " N");
+  os << indent << "Penetration: " << tick.Penetration << "\n";
+  os << indent << "NumberOfConstraints: " << tick.NumberOfConstraints << "\n";
+  os << indent << "NumberOfTicks: " << report.Ticks << "\n";
+  os << indent << "NumberOfMissedTicks: " << report.MissedTicks << "\n";
+  os << indent << "MeasuredRate: " << report.Rate() << " Hz\n";
+  os << indent << "PeriodRatio: " << report.PeriodRatio << " s\n";
+  os << indent << "MaximumPeriod: " << report.MaximumPeriod << " s\n";
+  os << indent << "NumberOfLostRecords: " << this->GetNumberOfLostRecords() << "\n";
+}

@@ -1,0 +1,261 @@
+/**
+ * @class   vtkHapticServo
+ * @brief   the 1 kHz loop between a haptic device and the surfaces: position in, force out
+ *
+ * Each tick reads the device, maps its position to the world, moves the god-object, maps its
+ * displacement back, and writes the force of a spring to the device. Start() does so on a thread
+ * of its own at absolute deadlines, with real-time priority where the system permits it; Step()
+ * does so in virtual time on the calling thread, which gives the same result in every run.
+ *
+ * The servo thread touches no vtkObject, allocates nothing and takes no lock. All that goes to and
+ * from it goes wait-free: settings and surfaces at once at its next tick, its state when Update()
+ * is called.
+ *
+ * Safety: the force is zero after Stop(), after destruction, and from the very tick on in which
+ * the device is lost, tells a position that is not finite, or in which the displacement is not
+ * finite. After a gap of more than StallLimit between two ticks it is zero too. The servo then has
+ * stopped in the state that tells why, and stays so until Start() or Step(). No force is longer
+ * than the device's or this object's MaximumForce.
+ *
+ * vtkHapticScene gives it the surfaces; without any it is free space and all forces are zero.
+ *
+ * Every method is for the GUI thread; none but Start(), Stop() and SetDevice() waits for the servo.
+ *
+ * @sa vtkHapticScene vtkHapticDevice haptics::ServoCycle haptics::ServoLoop
+ */
+#ifndef vtkHapticServo_h
+#define vtkHapticServo_h
+
+#include "vtkCommand.h"
+#include "vtkHapticsInteractorsModule.h"
+#include "vtkObject.h"
+#include "vtkSmartPointer.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+class vtkHapticDevice;
+class vtkMatrix4x4;
+
+namespace haptics
+{
+class GodObject;
+struct ServoReport;
+struct TickRecord;
+}
+
+class VTKHAPTICSINTERACTORS_EXPORT vtkHapticServo : public vtkObject
+{
+public:
+  static vtkHapticServo* New();
+  vtkTypeMacro(vtkHapticServo, vtkObject);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /// What the servo does, or why it stopped. The same as haptics::ServoState.
+  enum ServoStates
+  {
+    Stopped,         ///< not started, or stopped on request
+    Running,         ///< ticking on its own thread
+    Stepping,        ///< Step() was called last
+    DeviceLost,      ///< the device did not answer or was closed
+    InvalidPosition, ///< the device told a position that is not finite
+    InvalidForce,    ///< the displacement is not finite in the device frame
+    Stalled          ///< two ticks were more than StallLimit apart
+  };
+
+  /// Invoked after GetState() has changed, from Start(), Step(), Stop() or Update(). No call data.
+  enum ServoEvents
+  {
+    StateChangedEvent = vtkCommand::UserEvent + 4300
+  };
+
+  ///@{
+  /// The device. Null by default. Setting another one stops the servo first.
+  void SetDevice(vtkHapticDevice* device);
+  vtkHapticDevice* GetDevice();
+  ///@}
+
+  ///@{
+  /// Ticks a second [Hz]. Default 1000, 50 to 10,000. Read by Start() and by the first Step().
+  vtkSetClampMacro(Rate, double, 50.0, 10000.0);
+  vtkGetMacro(Rate, double);
+  ///@}
+  ///@{
+  /// Whether Start() asks for real-time priority. Default on. See GetPriorityNote().
+  vtkSetMacro(RealTimePriority, bool);
+  vtkGetMacro(RealTimePriority, bool);
+  vtkBooleanMacro(RealTimePriority, bool);
+  ///@}
+  ///@{
+  /// The longest gap between two ticks [s] that is no fault. Default 0.5, 0.05 to 60; read by
+  /// Start().
+  vtkSetClampMacro(StallLimit, double, 0.05, 60.0);
+  vtkGetMacro(StallLimit, double);
+  ///@}
+
+  ///@{
+  /**
+   * The spring between HIP and god-object [N/m], device frame. Default 500, finite and >= 0; any
+   * other value is an error and changes nothing. What is used, GetEffectiveStiffness(), is not
+   * above the device's MaximumStiffness. Acts at the next tick.
+   */
+  void SetStiffness(double stiffness);
+  vtkGetMacro(Stiffness, double);
+  double GetEffectiveStiffness();
+  ///@}
+  ///@{
+  /**
+   * The longest force [N]; longer ones are shortened. Default VTK_DOUBLE_MAX: only the device's own
+   * MaximumForce limits. Not below 0; any other value is an error and changes nothing. Acts at the
+   * next tick.
+   */
+  void SetMaximumForce(double force);
+  vtkGetMacro(MaximumForce, double);
+  double GetEffectiveMaximumForce();
+  ///@}
+
+  ///@{
+  /**
+   * Device frame [m] to world frame: rotation, uniform scale, translation. Default the identity.
+   * Any other matrix (a mirror, a shear, not finite, null) is an error, changes nothing and returns
+   * false. At the next tick the god-object starts anew at the HIP, so that no jump is felt.
+   */
+  bool SetWorkspaceTransform(vtkMatrix4x4* deviceToWorld);
+  void GetWorkspaceTransform(vtkMatrix4x4* deviceToWorld);
+  ///@}
+
+  /// At the next tick the god-object starts anew at the HIP, as in free space.
+  void PlaceGodObject();
+
+  /**
+   * Start ticking on a thread. The device must be set and open. Returns whether the servo runs;
+   * else the cause is in GetErrorMessage() and in VTK's error output. Forgets statistics and
+   * records of the run before; does nothing while running.
+   */
+  bool Start();
+  /// Ask for zero force and stop, waiting about a period for the thread. Keeps the statistics.
+  void Stop();
+  /**
+   * Run n >= 0 ticks in virtual time, one period apart, on this thread, then do what Update() does.
+   * The first one after Start(), Stop() or a fault begins at time 0 and forgets statistics and
+   * records. Returns the ticks done: fewer than n where the device was lost, and none, with an
+   * error, while running or without an open device.
+   */
+  int Step(int n);
+  /// True while the servo thread is ticking.
+  bool IsRunning();
+
+  /**
+   * Take in what the servo did: the state below, faults, god-objects to delete. Call it about as
+   * often as the picture is drawn. Returns whether there was a new tick or another state.
+   */
+  bool Update();
+
+  ///@{
+  /// The state as of the last Start(), Step(), Stop() or Update(): a number of ServoStates, and its
+  /// English name.
+  vtkGetMacro(State, int);
+  const char* GetStateAsString();
+  ///@}
+  /// Why the servo did not start or has stopped, for people; empty where nothing is wrong.
+  const char* GetErrorMessage() { return this->ErrorMessage.c_str(); }
+  /// Whether the last Start() got real-time priority, and what to do where not; empty before.
+  const char* GetPriorityNote() { return this->PriorityNote.c_str(); }
+
+  ///@{
+  /// The latest tick as of the last Update(), Step() or Stop(); zeros before the first.
+  void GetHapticInterfacePoint(double position[3]); ///< world frame [world unit]
+  void GetGodObject(double position[3]);            ///< world frame [world unit]
+  void GetForce(double force[3]);                   ///< device frame [N]
+  void GetWorldForce(double force[3]);              ///< along the world's axes [N]
+  void GetDevicePosition(double position[3]);       ///< HIP, device frame [m]
+  unsigned int GetButtons();                        ///< bit i is set while button i is held
+  double GetPenetration();                          ///< of the HIP [world unit]
+  int GetNumberOfConstraints();                     ///< 0 in free space, to 3
+  double GetTime();                                 ///< [s] since the start
+  ///@}
+
+  ///@{
+  /**
+   * How regular the ticks of this run are, or of the last one were; readable while it runs. In
+   * virtual time the periods are exact and only the tick times are measured.
+   *
+   * A period T is the time between two ticks [s]. PeriodRatio is E[T^2]/E[T], the T that a stable
+   * stiffness depends on; MaximumPeriod is T_max; missed ticks are deadlines that passed while a
+   * tick ran or the thread slept. A tick time is the work of one tick [s]. A quantile is the
+   * duration [s] that the given share (0 to 1) of the ticks did not exceed, at most 3.2 % too long.
+   */
+  vtkTypeInt64 GetNumberOfTicks();
+  vtkTypeInt64 GetNumberOfMissedTicks();
+  double GetMeasuredRate(); ///< ticks a second [Hz]; 0 before the second tick
+  double GetMeanPeriod();
+  double GetPeriodRatio();
+  double GetMaximumPeriod();
+  double GetPeriodQuantile(double fraction);
+  double GetTickTimeQuantile(double fraction);
+  double GetMaximumTickTime();
+  ///@}
+
+  ///@{
+  /**
+   * The histograms behind the quantiles: the number of bins, the edge [s] at which a bin starts
+   * (0 to the number of bins), and what it has counted. 0 for a bin that does not exist.
+   */
+  static int GetNumberOfHistogramBins();
+  static double GetHistogramEdge(int bin);
+  vtkTypeInt64 GetPeriodCount(int bin);
+  vtkTypeInt64 GetTickTimeCount(int bin);
+  ///@}
+
+  /// Records of this run that nobody drained in time. The newest 16,384 ticks are kept at most;
+  /// what comes when they are full is lost.
+  vtkTypeInt64 GetNumberOfLostRecords();
+
+#ifndef __VTK_WRAP__
+  /**
+   * Touch other surfaces: the servo's next tick goes on with this god-object from where the last
+   * one stands. Returns the number that the ticks' records carry from then on (their Generation).
+   * Null is an error and returns 0. C++ only, as all below.
+   */
+  std::uint64_t PublishGodObject(std::unique_ptr<haptics::GodObject> godObject);
+  /// Append the ticks since the last call, oldest first; returns how many.
+  std::size_t DrainRecords(std::vector<haptics::TickRecord>& records);
+  /// The latest tick as of the last Update(), Step() or Stop().
+  const haptics::TickRecord& GetLatestRecord() const;
+  /// All statistics at one moment.
+  haptics::ServoReport GetReport() const;
+#endif
+
+protected:
+  vtkHapticServo();
+  ~vtkHapticServo() override;
+
+private:
+  vtkHapticServo(const vtkHapticServo&) = delete;
+  void operator=(const vtkHapticServo&) = delete;
+
+  class Internals;
+
+  bool Begin(int state);
+  void Configure();
+  void Fail(const std::string& message);
+  bool NoticeState(int state);
+
+  std::unique_ptr<Internals> Internal;
+  vtkSmartPointer<vtkHapticDevice> Device;
+  double Rate = 1000.0;
+  bool RealTimePriority = true;
+  double StallLimit = 0.5;
+  double Stiffness = 500.0;
+  double MaximumForce = VTK_DOUBLE_MAX;
+  int State = Stopped;
+  vtkTypeInt64 NextStep = 0; // number of the next tick in virtual time
+  double StepPeriod = 0.001; // [s], of the run in virtual time
+  std::string ErrorMessage;
+  std::string PriorityNote;
+};
+
+#endif
