@@ -1,0 +1,274 @@
+#include "FilterTesting.h"
+
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkGodObjectFilter.h"
+#include "vtkGodObjectTrace.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkSphereSource.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace testing_surfaces;
+
+namespace
+{
+/// Two triangles from (-1,-1,0) to (1,1,0), seen from above; cell 0 has x > y.
+vtkSmartPointer<vtkPolyData> Plane()
+{
+  return MakePolyData(
+    { { { -1, -1, 0 }, { 1, -1, 0 }, { 1, 1, 0 }, { -1, 1, 0 } }, { { 0, 1, 2 }, { 0, 2, 3 } }, {}, {},
+      {} });
+}
+
+/// From one position to another in steps, both included.
+void AddLine(std::vector<Point>& path, const Point& from, const Point& to, int steps)
+{
+  for (int i = 0; i <= steps; ++i)
+  {
+    const double t = static_cast<double>(i) / steps;
+    path.push_back({ from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1]),
+      from[2] + t * (to[2] - from[2]) });
+  }
+}
+
+vtkSmartPointer<vtkPolyData> Path(const std::vector<Point>& positions)
+{
+  return MakePolyData({ positions, {}, {}, {}, {} });
+}
+
+Point Tuple(vtkPolyData* trace, const char* name, vtkIdType tick)
+{
+  Point value{};
+  trace->GetPointData()->GetArray(name)->GetTuple(tick, value.data());
+  return value;
+}
+
+double Value(vtkPolyData* trace, const char* name, vtkIdType tick)
+{
+  return trace->GetPointData()->GetArray(name)->GetTuple1(tick);
+}
+
+double Distance(const Point& a, const Point& b)
+{
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+// The god-object floats in front of a facet by the surface's clearance, about 1e-6 of its size.
+constexpr double Clearance = 1e-5;
+}
+
+TEST(GodObjectTrace, StaysAboveTheHipOnAPlane)
+{
+  //   \          ______
+  // ---o--------o------   god-object
+  //     \______/          HIP
+  std::vector<Point> positions;
+  AddLine(positions, { 0.5, -0.5, 0.1 }, { 0.5, -0.5, -0.002 }, 100);
+  const auto deepest = static_cast<vtkIdType>(positions.size()) - 1;
+  AddLine(positions, { 0.5, -0.5, -0.002 }, { 0.5, 0.7, -0.002 }, 200);
+  const auto slid = static_cast<vtkIdType>(positions.size()) - 1;
+  AddLine(positions, { 0.5, 0.7, -0.002 }, { 0.5, 0.7, 0.1 }, 100);
+  vtkNew<vtkGodObjectTrace> trace;
+  trace->SetInputData(Path(positions));
+  trace->SetSurfaceData(Plane());
+  trace->Update();
+  vtkPolyData* output = trace->GetOutput();
+  ASSERT_EQ(output->GetNumberOfPoints(), static_cast<vtkIdType>(positions.size()));
+  EXPECT_EQ(output->GetNumberOfLines(), 1);
+  for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
+  {
+    const Point& hip = positions[i];
+    const Point expected{ hip[0], hip[1], std::max(hip[2], 0.0) };
+    Point god;
+    output->GetPoint(i, god.data());
+    EXPECT_LT(Distance(god, expected), Clearance) << "tick " << i;
+    EXPECT_EQ(Tuple(output, "HapticInterfacePoint", i), hip);
+    EXPECT_NEAR(Value(output, "Penetration", i), std::max(-hip[2], 0.0), Clearance);
+  }
+  EXPECT_EQ(Value(output, "ActiveConstraints", 0), 0);
+  EXPECT_EQ(Value(output, "OriginalCellId", 0), -1);
+  EXPECT_EQ(Tuple(output, "Force", 0), (Point{ 0, 0, 0 }));
+  EXPECT_EQ(Value(output, "ActiveConstraints", deepest), 1);
+  EXPECT_EQ(Value(output, "OriginalCellId", deepest), 0) << "x > y";
+  EXPECT_EQ(Value(output, "OriginalCellId", slid), 1) << "x < y";
+  // 500 N/m at 2 mm; the clearance adds 500 N/m * 1e-5 m at most.
+  EXPECT_LT(Distance(Tuple(output, "Force", deepest), { 0, 0, 1.0 }), 0.005);
+  EXPECT_EQ(Value(output, "ActiveConstraints", output->GetNumberOfPoints() - 1), 0);
+}
+
+TEST(GodObjectTrace, FollowsTheFootPointOnASphere)
+{
+  vtkNew<vtkSphereSource> sphere;
+  sphere->SetRadius(1.0);
+  sphere->SetThetaResolution(256);
+  sphere->SetPhiResolution(256);
+  std::vector<Point> positions;
+  AddLine(positions, { 1.2, 0, 0.3 }, { 0.95, 0, 0.3 }, 50);
+  for (int i = 0; i <= 500; ++i)
+  {
+    const double angle = 0.004 * i;
+    positions.push_back({ 0.95 * std::cos(angle), 0.95 * std::sin(angle), 0.3 });
+  }
+  vtkNew<vtkGodObjectTrace> trace;
+  trace->SetInputData(Path(positions));
+  trace->SetSurfaceConnection(sphere->GetOutputPort());
+  trace->SetStiffness(100.0);
+  trace->SetMaximumForce(1000.0);
+  trace->Update();
+  vtkPolyData* output = trace->GetOutput();
+  const double depth = 1.0 - std::hypot(0.95, 0.3);
+  for (vtkIdType i = 60; i < output->GetNumberOfPoints(); ++i)
+  {
+    const Point& hip = positions[i];
+    const double radius = std::hypot(hip[0], hip[1], hip[2]);
+    const Point foot{ hip[0] / radius, hip[1] / radius, hip[2] / radius };
+    Point god;
+    output->GetPoint(i, god.data());
+    // Facets of 0.025: they lie up to 1.5e-4 below the sphere, and are tilted against it by up to
+    // 0.018, which shifts the foot point by that times the depth.
+    EXPECT_LT(Distance(god, foot), 1.5e-4 + 0.018 * depth) << "tick " << i;
+    const Point force = Tuple(output, "Force", i);
+    EXPECT_NEAR(std::hypot(force[0], force[1], force[2]), 100.0 * depth, 100.0 * 2e-4);
+  }
+}
+
+TEST(GodObjectTrace, ScalesTheForceFromWorldToDevice)
+{
+  std::vector<Point> positions;
+  AddLine(positions, { 0.5, 0, 0.1 }, { 0.5, 0, -0.1 }, 20);
+  vtkNew<vtkGodObjectTrace> trace;
+  trace->SetInputData(Path(positions));
+  trace->SetSurfaceData(Plane());
+  trace->SetWorldToDeviceScale(0.01); // 0.1 world units are 1 mm
+  trace->SetStiffness(1000.0);
+  trace->Update();
+  EXPECT_NEAR(Tuple(trace->GetOutput(), "Force", 20)[2], 1.0, 1e-4) << "clearance 1e-5 * 10 N";
+  trace->SetMaximumForce(0.25);
+  trace->Update();
+  EXPECT_NEAR(Tuple(trace->GetOutput(), "Force", 20)[2], 0.25, 1e-12);
+}
+
+TEST(GodObjectTrace, PassesThePointDataOfThePath)
+{
+  auto path = Path({ { 0, 0, 1 }, { 0, 0, 2 } });
+  vtkNew<vtkDoubleArray> time;
+  time->SetName("Time");
+  time->InsertNextValue(0.25);
+  time->InsertNextValue(0.5);
+  path->GetPointData()->AddArray(time);
+  vtkNew<vtkGodObjectTrace> trace;
+  trace->SetInputData(path);
+  trace->SetSurfaceData(Plane());
+  trace->Update();
+  EXPECT_EQ(Value(trace->GetOutput(), "Time", 1), 0.5);
+}
+
+TEST(GodObjectTrace, GivesTheSameBitsTwice)
+{
+  std::vector<Point> positions;
+  AddLine(positions, { 1.2, 0.1, 0.3 }, { -0.3, -0.2, 0.1 }, 400);
+  AddLine(positions, { -0.3, -0.2, 0.1 }, { 0.2, 1.1, 0.0 }, 400);
+  vtkNew<vtkSphereSource> sphere;
+  std::array<vtkNew<vtkGodObjectTrace>, 2> traces;
+  for (auto& trace : traces)
+  {
+    trace->SetInputData(Path(positions));
+    trace->SetSurfaceConnection(sphere->GetOutputPort());
+    trace->Update();
+  }
+  bool touched = false;
+  for (vtkIdType i = 0; i < traces[0]->GetOutput()->GetNumberOfPoints(); ++i)
+  {
+    EXPECT_EQ(
+      Tuple(traces[0]->GetOutput(), "Force", i), Tuple(traces[1]->GetOutput(), "Force", i));
+    touched = touched || Value(traces[0]->GetOutput(), "ActiveConstraints", i) > 0;
+  }
+  EXPECT_TRUE(touched);
+}
+
+TEST(GodObjectTrace, UsesTheSurfaceOfAGodObjectFilterAsItIs)
+{
+  // From below, so that only Both is felt.
+  std::vector<Point> positions;
+  AddLine(positions, { 0.5, 0, -0.1 }, { 0.5, 0, 0.1 }, 20);
+  vtkNew<vtkGodObjectFilter> filter;
+  filter->SetInputData(Plane());
+  vtkNew<vtkGodObjectTrace> trace;
+  trace->SetInputData(Path(positions));
+  trace->SetSurfaceConnection(filter->GetOutputPort());
+  filter->SetSideToFront();
+  trace->Update();
+  EXPECT_EQ(Value(trace->GetOutput(), "ActiveConstraints", 20), 0);
+  filter->SetSideToBoth();
+  trace->Update();
+  EXPECT_EQ(Value(trace->GetOutput(), "ActiveConstraints", 20), 1);
+  EXPECT_LT(Tuple(trace->GetOutput(), "Force", 20)[2], 0.0);
+  EXPECT_EQ(filter->GetNumberOfBuilds(), 2);
+}
+
+TEST(GodObjectTrace, NamesTheCellsOfItsOwnInput)
+{
+  // Through a filter whose output was copied, hence prepared anew: ids are those of port 1.
+  Parts cube = Cube();
+  vtkNew<vtkGodObjectTrace> trace;
+  trace->SetInputData(Path({ { 0.4, 0.3, 1.5 }, { 0.4, 0.3, 0.9 } }));
+  trace->SetSurfaceData(MakePolyData(cube));
+  trace->Update();
+  EXPECT_EQ(Value(trace->GetOutput(), "OriginalCellId", 1), 1) << "the top";
+}
+
+TEST(GodObjectTrace, ASinglePointBecomesAVertex)
+{
+  vtkNew<vtkGodObjectTrace> trace;
+  trace->SetInputData(Path({ { 0, 0, 1 } }));
+  trace->SetSurfaceData(Plane());
+  trace->Update();
+  EXPECT_EQ(trace->GetOutput()->GetNumberOfVerts(), 1);
+}
+
+namespace
+{
+void ExpectRefused(vtkPolyData* path, vtkPolyData* surface, const std::string& word)
+{
+  vtkNew<vtkGodObjectTrace> trace;
+  MessageCatcher messages(trace);
+  if (path)
+  {
+    trace->SetInputData(path);
+  }
+  if (surface)
+  {
+    trace->SetSurfaceData(surface);
+  }
+  trace->Update();
+  EXPECT_NE(messages.Errors().find(word), std::string::npos) << messages.Errors();
+  EXPECT_EQ(trace->GetOutput()->GetNumberOfPoints(), 0);
+}
+}
+
+TEST(GodObjectTrace, RefusesAMissingOrEmptyPath)
+{
+  ExpectRefused(nullptr, Plane(), "no path");
+  ExpectRefused(Path({}), Plane(), "no path");
+}
+
+TEST(GodObjectTrace, RefusesAPathThatIsNotFinite)
+{
+  ExpectRefused(Path({ { 0, 0, 1 }, { 0, std::nan(""), 0 } }), Plane(), "Point 1 of the path");
+}
+
+TEST(GodObjectTrace, RefusesAMissingSurface)
+{
+  ExpectRefused(Path({ { 0, 0, 1 } }), nullptr, "no surface");
+}
+
+TEST(GodObjectTrace, RefusesASurfaceThatCannotBeTouched)
+{
+  ExpectRefused(Path({ { 0, 0, 1 } }), Path({ { 0, 0, 0 } }), "cannot be touched");
+}
