@@ -1,0 +1,71 @@
+#ifndef SurfaceSet_h
+#define SurfaceSet_h
+
+#include "HapticSurface.h"
+#include "TickRecord.h"
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace haptics
+{
+/// A cell of a surface of the scene, as its user knows them.
+struct SceneCell
+{
+  int Surface = -1;    ///< id
+  vtkIdType Cell = -1; ///< of the geometry as it was given
+};
+
+/// @brief The surfaces of a scene, and what the servo's indices mean. GUI thread.
+///
+/// A god-object numbers its surfaces from 0; ids stay when others come and go. What was published
+/// is remembered until no tick can tell of it any more.
+class SurfaceSet
+{
+public:
+  /// Adds one; `source` is what a HapticSurface takes. Returns its id.
+  template <class Source>
+  int Add(Source* source)
+  {
+    this->Surfaces.push_back(std::make_unique<HapticSurface>(this->NextId, source));
+    return this->NextId++;
+  }
+  bool Remove(int id);
+  void Clear();
+
+  const std::vector<std::unique_ptr<HapticSurface>>& All() const { return this->Surfaces; }
+  HapticSurface* Find(int id) const;
+  HapticSurface* Find(vtkActor* actor) const;
+
+  /// Takes in what has changed. True where a new god-object has to be published. Each new error is
+  /// appended to `errors`, naming its surface.
+  bool Pull(std::vector<std::string>& errors);
+
+  /// What a god-object is to touch now.
+  std::vector<HapticSurface::Snapshot> Touched() const;
+  /// Remembers what Touched() gave under the number it was published with.
+  void Published(std::uint64_t generation);
+  /// Forgets what was published before `generation`.
+  void Forget(std::uint64_t generation);
+
+  /// What the first constraint of a tick belongs to.
+  SceneCell Locate(const TickRecord& tick) const;
+
+private:
+  struct Entry
+  {
+    int Id;
+    HapticSurface::CellIds Cells;
+  };
+
+  std::vector<std::unique_ptr<HapticSurface>> Surfaces;
+  std::map<std::uint64_t, std::vector<Entry>> Generations;
+  int NextId = 0;
+  bool Changed = true; // nothing was published yet
+};
+}
+
+#endif

@@ -1,0 +1,513 @@
+#include "vtkHapticScene.h"
+
+#include "SurfaceSet.h"
+#include "TraceRecorder.h"
+#include "WorkspaceFit.h"
+#include "WorkspaceTransform.h"
+#include "vtkActor.h"
+#include "vtkAlgorithmOutput.h"
+#include "vtkBoundingBox.h"
+#include "vtkCamera.h"
+#include "vtkGodObjectActor.h"
+#include "vtkGodObjectFilter.h"
+#include "vtkHapticDevice.h"
+#include "vtkHapticServo.h"
+#include "vtkMatrix4x4.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkTrivialProducer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+vtkStandardNewMacro(vtkHapticScene);
+
+class vtkHapticScene::Internals
+{
+public:
+  haptics::SurfaceSet Surfaces;
+  haptics::TraceRecorder Recorder;
+  std::vector<haptics::TickRecord> Drained; // kept for its memory
+  std::optional<haptics::TickRecord> Latest;
+  haptics::SceneCell LatestCell;
+};
+
+vtkHapticScene::vtkHapticScene()
+  : Internal(std::make_unique<Internals>())
+{
+}
+
+vtkHapticScene::~vtkHapticScene()
+{
+  this->Servo->Stop();
+}
+
+void vtkHapticScene::Fail(const std::string& message)
+{
+  this->ErrorMessage = message;
+  vtkErrorMacro(<< message);
+}
+
+int vtkHapticScene::AddSurface(vtkActor* actor)
+{
+  if (!actor)
+  {
+    this->Fail("There is no actor to add as a surface. Give one.");
+    return -1;
+  }
+  if (const haptics::HapticSurface* known = this->Internal->Surfaces.Find(actor))
+  {
+    return known->Id();
+  }
+  this->Modified();
+  return this->Internal->Surfaces.Add(actor);
+}
+
+int vtkHapticScene::AddSurface(vtkAlgorithmOutput* geometry)
+{
+  if (!geometry)
+  {
+    this->Fail("There is no output port to add as a surface. Give one.");
+    return -1;
+  }
+  this->Modified();
+  return this->Internal->Surfaces.Add(geometry);
+}
+
+int vtkHapticScene::AddSurface(vtkPolyData* geometry)
+{
+  if (!geometry)
+  {
+    this->Fail("There is no geometry to add as a surface. Give a vtkPolyData.");
+    return -1;
+  }
+  vtkNew<vtkTrivialProducer> producer;
+  producer->SetOutput(geometry);
+  return this->AddSurface(producer->GetOutputPort());
+}
+
+bool vtkHapticScene::RemoveSurface(int id)
+{
+  const bool removed = this->Internal->Surfaces.Remove(id);
+  if (removed)
+  {
+    this->Modified();
+  }
+  return removed;
+}
+
+bool vtkHapticScene::RemoveSurface(vtkActor* actor)
+{
+  const haptics::HapticSurface* surface = this->Internal->Surfaces.Find(actor);
+  return surface && this->RemoveSurface(surface->Id());
+}
+
+void vtkHapticScene::RemoveAllSurfaces()
+{
+  this->Internal->Surfaces.Clear();
+  this->Modified();
+}
+
+int vtkHapticScene::GetNumberOfSurfaces()
+{
+  return static_cast<int>(this->Internal->Surfaces.All().size());
+}
+
+int vtkHapticScene::GetSurfaceId(int i)
+{
+  return i >= 0 && i < this->GetNumberOfSurfaces() ? this->Internal->Surfaces.All()[i]->Id() : -1;
+}
+
+vtkActor* vtkHapticScene::GetSurfaceActor(int id)
+{
+  const haptics::HapticSurface* surface = this->Internal->Surfaces.Find(id);
+  return surface ? surface->Actor() : nullptr;
+}
+
+vtkGodObjectFilter* vtkHapticScene::GetSurfaceFilter(int id)
+{
+  const haptics::HapticSurface* surface = this->Internal->Surfaces.Find(id);
+  return surface ? surface->Filter() : nullptr;
+}
+
+bool vtkHapticScene::IsSurfaceTouchable(int id)
+{
+  const haptics::HapticSurface* surface = this->Internal->Surfaces.Find(id);
+  return surface && surface->Touched();
+}
+
+void vtkHapticScene::SetDevice(vtkHapticDevice* device)
+{
+  if (device != this->GetDevice())
+  {
+    this->Release();
+    this->Servo->SetDevice(device);
+    this->Modified();
+  }
+}
+
+vtkHapticDevice* vtkHapticScene::GetDevice()
+{
+  return this->Servo->GetDevice();
+}
+
+void vtkHapticScene::SetStiffness(double stiffness)
+{
+  this->Servo->SetStiffness(stiffness);
+}
+
+double vtkHapticScene::GetStiffness()
+{
+  return this->Servo->GetStiffness();
+}
+
+bool vtkHapticScene::SetWorkspaceTransform(vtkMatrix4x4* deviceToWorld)
+{
+  if (!deviceToWorld)
+  {
+    this->Fail("There is no matrix to take as the workspace transform. Give one.");
+    return false;
+  }
+  std::string error;
+  if (!haptics::WorkspaceTransform().SetMatrix(deviceToWorld->GetData(), error))
+  {
+    this->Fail(error + " The last one stays.");
+    return false;
+  }
+  this->Servo->SetWorkspaceTransform(deviceToWorld);
+  this->Workspace->DeepCopy(deviceToWorld);
+  this->Modified();
+  return true;
+}
+
+vtkMatrix4x4* vtkHapticScene::GetWorkspaceTransform()
+{
+  return this->Workspace;
+}
+
+bool vtkHapticScene::FitWorkspace(vtkCamera* camera)
+{
+  this->PullSurfaces();
+  vtkBoundingBox box;
+  for (const haptics::HapticSurface::Snapshot& surface : this->Internal->Surfaces.Touched())
+  {
+    for (const haptics::Vec3& point : surface->Points())
+    {
+      const haptics::Vec3& origin = surface->Origin();
+      box.AddPoint(point[0] + origin[0], point[1] + origin[1], point[2] + origin[2]);
+    }
+  }
+  if (!box.IsValid())
+  {
+    this->Fail("The workspace fits nothing: the scene has no surface that can be touched. Add one.");
+    return false;
+  }
+  double bounds[6];
+  box.GetBounds(bounds);
+  return this->FitWorkspace(bounds, camera);
+}
+
+bool vtkHapticScene::FitWorkspace(const double bounds[6], vtkCamera* camera)
+{
+  vtkHapticDevice* device = this->GetDevice();
+  if (!device)
+  {
+    this->Fail("The workspace cannot be fitted without a device. Call SetDevice() first.");
+    return false;
+  }
+  vtkNew<vtkMatrix4x4> fitted;
+  std::string error;
+  if (!haptics::FitWorkspace(device->GetWorkspaceBounds(), bounds, camera, fitted, error))
+  {
+    this->Fail("The workspace cannot be fitted: " + error + ".");
+    return false;
+  }
+  return this->SetWorkspaceTransform(fitted);
+}
+
+bool vtkHapticScene::Engage()
+{
+  if (this->IsEngaged())
+  {
+    return true;
+  }
+  vtkHapticDevice* device = this->GetDevice();
+  if (!device)
+  {
+    this->Fail("There is no device to engage. Call SetDevice() first.");
+    return false;
+  }
+  if (!device->IsOpen() && !device->Open())
+  {
+    this->Fail(std::string("The device could not be opened: ") + device->GetErrorMessage());
+    return false;
+  }
+  this->PullState();
+  this->PullSurfaces();
+  if (!this->Servo->Start())
+  {
+    this->ErrorMessage = this->Servo->GetErrorMessage();
+    return false;
+  }
+  this->Engaged = true;
+  this->Modified();
+  return true;
+}
+
+void vtkHapticScene::Release()
+{
+  if (this->Engaged)
+  {
+    this->Engaged = false;
+    this->Servo->Stop();
+    this->PullState();
+    this->Modified();
+  }
+}
+
+bool vtkHapticScene::IsEngaged()
+{
+  return this->Engaged;
+}
+
+bool vtkHapticScene::Update()
+{
+  const bool moved = this->PullState();
+  const bool changed = this->PullSurfaces();
+  return moved || changed;
+}
+
+int vtkHapticScene::Step(int n)
+{
+  if (n < 1)
+  {
+    this->Fail("Step(" + std::to_string(n) + ") does nothing. Give 1 or more ticks.");
+    return 0;
+  }
+  vtkHapticDevice* device = this->GetDevice();
+  if (device && !this->Engaged && !device->IsOpen() && !device->Open())
+  {
+    this->Fail(std::string("The device could not be opened: ") + device->GetErrorMessage());
+    return 0;
+  }
+  this->PullState();
+  this->PullSurfaces();
+  int done = 0;
+  while (done < n)
+  {
+    // The servo keeps 16,384 records: drain them before they are lost.
+    const int portion = std::min(n - done, 8192);
+    const int stepped = this->Servo->Step(portion);
+    done += stepped;
+    this->PullState();
+    if (stepped < portion)
+    {
+      this->ErrorMessage = this->Servo->GetErrorMessage();
+      break;
+    }
+  }
+  return done;
+}
+
+bool vtkHapticScene::PullSurfaces()
+{
+  std::vector<std::string> errors;
+  haptics::SurfaceSet& surfaces = this->Internal->Surfaces;
+  const bool changed = surfaces.Pull(errors);
+  if (changed)
+  {
+    const std::uint64_t generation = this->Servo->PublishGodObject(
+      std::make_unique<haptics::GodObject>(surfaces.Touched()));
+    if (!this->Servo->IsRunning())
+    {
+      surfaces.Forget(generation); // all records are drained, no tick can tell of older ones
+    }
+    surfaces.Published(generation);
+  }
+  for (const std::string& error : errors)
+  {
+    this->Fail(error);
+    this->InvokeEvent(vtkHapticScene::SurfaceErrorEvent);
+  }
+  return changed;
+}
+
+bool vtkHapticScene::PullState()
+{
+  this->Servo->Update();
+  this->PullRecords();
+  if (this->Engaged && !this->Servo->IsRunning())
+  {
+    this->Engaged = false;
+    this->ErrorMessage = this->Servo->GetErrorMessage();
+    this->InvokeEvent(vtkHapticScene::FaultEvent);
+  }
+  return this->ShowState();
+}
+
+void vtkHapticScene::PullRecords()
+{
+  std::vector<haptics::TickRecord>& records = this->Internal->Drained;
+  records.clear();
+  this->Servo->DrainRecords(records);
+
+  const vtkIdType lost = this->Servo->GetNumberOfLostRecords();
+  if (this->Recording)
+  {
+    // The servo counts from 0 again at each start.
+    this->LostTicks += lost >= this->LostBefore ? lost - this->LostBefore : lost;
+  }
+  this->LostBefore = lost;
+
+  haptics::TraceRecorder& recorder = this->Internal->Recorder;
+  for (const haptics::TickRecord& record : records)
+  {
+    if (this->Actor)
+    {
+      this->Actor->AddTrailPoint(record.GodObject.data(), record.NumberOfConstraints > 0);
+    }
+    if (this->Recording && recorder.Size() >= this->MaximumTraceTicks)
+    {
+      this->Recording = false;
+      vtkWarningMacro("The trace is full with " << recorder.Size()
+                                                << " ticks; recording has stopped. Raise "
+                                                   "MaximumTraceTicks to record longer.");
+    }
+    if (this->Recording)
+    {
+      const haptics::SceneCell cell = this->Internal->Surfaces.Locate(record);
+      recorder.Add({ record.Time, record.Hip, record.GodObject, record.WorldForce,
+        record.Penetration, cell.Cell, cell.Surface, record.NumberOfConstraints });
+    }
+  }
+  if (!records.empty())
+  {
+    this->Internal->Latest = records.back();
+    this->Internal->LatestCell = this->Internal->Surfaces.Locate(records.back());
+    this->Internal->Surfaces.Forget(records.back().Generation);
+  }
+}
+
+bool vtkHapticScene::ShowState()
+{
+  if (!this->Internal->Latest)
+  {
+    return false;
+  }
+  const haptics::TickRecord& latest = *this->Internal->Latest;
+  const int state = this->Servo->GetState();
+  const bool live = state == vtkHapticServo::Running || state == vtkHapticServo::Stepping;
+  const haptics::Vec3 force = live ? latest.WorldForce : haptics::Vec3{};
+  const bool touching = live && latest.NumberOfConstraints > 0;
+  const haptics::SceneCell cell = touching ? this->Internal->LatestCell : haptics::SceneCell();
+
+  const bool changed = !std::equal(latest.Hip.begin(), latest.Hip.end(),
+                         this->HapticInterfacePoint) ||
+    !std::equal(latest.GodObject.begin(), latest.GodObject.end(), this->GodObject) ||
+    !std::equal(force.begin(), force.end(), this->Force) || touching != this->Touching;
+  const bool began = touching && !this->Touching;
+  const bool ended = !touching && this->Touching;
+
+  std::copy(latest.Hip.begin(), latest.Hip.end(), this->HapticInterfacePoint);
+  std::copy(latest.GodObject.begin(), latest.GodObject.end(), this->GodObject);
+  std::copy(force.begin(), force.end(), this->Force);
+  this->Penetration = touching ? latest.Penetration : 0.0;
+  this->Touching = touching;
+  this->TouchedSurface = cell.Surface;
+  this->TouchedCell = cell.Cell;
+
+  this->ShowInActor();
+  if (began)
+  {
+    this->InvokeEvent(vtkHapticScene::ContactBeginEvent);
+  }
+  if (ended)
+  {
+    this->InvokeEvent(vtkHapticScene::ContactEndEvent);
+  }
+  return changed;
+}
+
+void vtkHapticScene::StartRecording()
+{
+  this->PullState(); // what came before is not recorded
+  this->Internal->Recorder.Clear();
+  this->LostTicks = 0;
+  this->Recording = true;
+}
+
+void vtkHapticScene::StopRecording()
+{
+  this->PullState();
+  this->Recording = false;
+}
+
+vtkPolyData* vtkHapticScene::GetTrace()
+{
+  this->Internal->Recorder.Write(this->Trace);
+  return this->Trace;
+}
+
+vtkIdType vtkHapticScene::GetNumberOfLostTicks()
+{
+  return this->LostTicks;
+}
+
+void vtkHapticScene::ShowInActor()
+{
+  if (this->Actor)
+  {
+    this->Actor->SetHapticInterfacePoint(this->HapticInterfacePoint);
+    this->Actor->SetGodObject(this->GodObject);
+    this->Actor->SetForce(this->Force);
+    this->Actor->SetTouching(this->Touching);
+  }
+}
+
+vtkGodObjectActor* vtkHapticScene::GetGodObjectActor()
+{
+  if (!this->Actor)
+  {
+    this->Actor = vtkSmartPointer<vtkGodObjectActor>::New();
+    this->ShowInActor();
+  }
+  return this->Actor;
+}
+
+vtkHapticServo* vtkHapticScene::GetServo()
+{
+  return this->Servo;
+}
+
+void vtkHapticScene::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  const vtkIndent next = indent.GetNextIndent();
+  const auto print = [&](const char* name, const double v[3]) {
+    os << indent << name << ": (" << v[0] << ", " << v[1] << ", " << v[2] << ")\n";
+  };
+  os << indent << "Engaged: " << (this->Engaged ? "yes" : "no") << "\n";
+  os << indent << "Surfaces: " << this->GetNumberOfSurfaces() << "\n";
+  for (const auto& surface : this->Internal->Surfaces.All())
+  {
+    os << next << surface->Id() << ": " << (surface->Actor() ? "actor" : "geometry") << ", "
+       << (surface->Touched() ? "touchable" : "not touchable") << "\n";
+  }
+  print("HapticInterfacePoint [world unit]", this->HapticInterfacePoint);
+  print("GodObject [world unit]", this->GodObject);
+  print("Force [N]", this->Force);
+  os << indent << "Penetration [world unit]: " << this->Penetration << "\n";
+  os << indent << "Touching: " << (this->Touching ? "yes" : "no") << "\n";
+  os << indent << "TouchedSurface: " << this->TouchedSurface << "\n";
+  os << indent << "TouchedCell: " << this->TouchedCell << "\n";
+  os << indent << "Recording: " << (this->Recording ? "yes" : "no") << "\n";
+  os << indent << "Recorded ticks: " << this->Internal->Recorder.Size() << " of "
+     << this->MaximumTraceTicks << "\n";
+  os << indent << "ErrorMessage: " << this->ErrorMessage << "\n";
+  os << indent << "WorkspaceTransform:\n";
+  this->Workspace->PrintSelf(os, next);
+  os << indent << "Servo:\n";
+  this->Servo->PrintSelf(os, next);
+}

@@ -1,0 +1,235 @@
+/**
+ * @class   vtkHapticScene
+ * @brief   Couples a haptic device, any number of surfaces and the servo loop: touch a picture.
+ *
+ * Add surfaces (actors as a view shows them, or geometry), give a device, Engage(): from then on
+ * the servo thread feels the surfaces at 1 kHz. Call Update() about as often as the picture is
+ * drawn; it takes in changed surfaces, drains the servo's records, keeps GetGodObjectActor() up to
+ * date and tells whether anything moved. vtkInteractorStyleHaptic calls it from a timer.
+ *
+ * Frames: surfaces, HIP and god-object are in the world frame [world unit]; device positions,
+ * forces and stiffness in the device frame [m, N, N/m]. The workspace transform maps device to
+ * world. Forces are also told along the world's axes, in newtons, for drawing.
+ *
+ * Errors: a surface that turns out empty, without polygons or with coordinates that are not finite
+ * is reported through vtkErrorMacro and GetErrorMessage(), once for each change; what was touched
+ * before stays in force.
+ *
+ * Memory: a snapshot of each surface, and while recording 120 bytes a tick up to
+ * MaximumTraceTicks.
+ *
+ * Every method is for the GUI thread.
+ *
+ * @sa vtkHapticServo vtkHapticDevice vtkGodObjectFilter vtkGodObjectActor vtkInteractorStyleHaptic
+ */
+#ifndef vtkHapticScene_h
+#define vtkHapticScene_h
+
+#include "vtkCommand.h"
+#include "vtkHapticsInteractorsModule.h"
+#include "vtkNew.h"
+#include "vtkObject.h"
+#include "vtkSmartPointer.h"
+
+#include <memory>
+#include <string>
+
+class vtkActor;
+class vtkAlgorithmOutput;
+class vtkCamera;
+class vtkGodObjectActor;
+class vtkGodObjectFilter;
+class vtkHapticDevice;
+class vtkHapticServo;
+class vtkMatrix4x4;
+class vtkPolyData;
+
+class VTKHAPTICSINTERACTORS_EXPORT vtkHapticScene : public vtkObject
+{
+public:
+  static vtkHapticScene* New();
+  vtkTypeMacro(vtkHapticScene, vtkObject);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /// Invoked by Update() and Step(). No call data; the getters tell the state after the event.
+  enum SceneEvents
+  {
+    ContactBeginEvent = vtkCommand::UserEvent + 4200, ///< a surface came to hold the god-object
+    ContactEndEvent,                                  ///< none does any more
+    SurfaceErrorEvent, ///< a surface could not be taken in: see GetErrorMessage()
+    FaultEvent         ///< the servo stopped by itself, no force: see GetErrorMessage()
+  };
+
+  ///@{
+  /**
+   * Adds a surface and returns its id, which is never given twice; -1 and an error where the
+   * argument is null. The geometry is taken in by the next Update(), Step() or Engage().
+   *
+   * An actor is followed: geometry, matrix (mirrored and scaled ones too), visibility and
+   * pickability; one that is hidden or not pickable is not touched. Adding it again returns the id
+   * that it has. Geometry given directly is in the world frame.
+   */
+  int AddSurface(vtkActor* actor);
+  int AddSurface(vtkAlgorithmOutput* geometry);
+  int AddSurface(vtkPolyData* geometry);
+  ///@}
+
+  ///@{
+  /** Removes a surface. False where it is not in the scene. Takes effect at the next Update(). */
+  bool RemoveSurface(int id);
+  bool RemoveSurface(vtkActor* actor);
+  void RemoveAllSurfaces();
+  ///@}
+
+  int GetNumberOfSurfaces();
+  /** The id of the i-th surface, 0 <= i < GetNumberOfSurfaces(); -1 elsewhere. */
+  int GetSurfaceId(int i);
+  /** The actor of a surface; null where it was added as geometry or is not in the scene. */
+  vtkActor* GetSurfaceActor(int id);
+  /** The filter that prepares a surface: side, engine, report. Null where there is no such id. */
+  vtkGodObjectFilter* GetSurfaceFilter(int id);
+  /** Whether a surface can be felt now: shown, and its geometry was good at least once. */
+  bool IsSurfaceTouchable(int id);
+
+  ///@{
+  /** The device, null by default. Changing it releases the scene first. */
+  void SetDevice(vtkHapticDevice* device);
+  vtkHapticDevice* GetDevice();
+  ///@}
+
+  ///@{
+  /** Stiffness of the surfaces in the hand [N/m], device frame. Default 500; finite and >= 0. */
+  void SetStiffness(double stiffness);
+  double GetStiffness();
+  ///@}
+
+  ///@{
+  /**
+   * Device to world: rotation, uniform scale [world unit/m], translation. Default the identity.
+   * False and an error where the matrix is anything else (a mirror, a shear, not finite); the last
+   * one stays. The god-object starts anew at the HIP, so that no jump is felt.
+   */
+  bool SetWorkspaceTransform(vtkMatrix4x4* deviceToWorld);
+  vtkMatrix4x4* GetWorkspaceTransform();
+  ///@}
+
+  /**
+   * Maps the device's workspace to the bounds of the surfaces that can be touched, as small as
+   * holds them. Camera-aligned: the device's x, y, z axes become the camera's right, up and
+   * towards the viewer; without a camera the world's axes. False and an error where no surface can
+   * be touched or there is no device.
+   */
+  bool FitWorkspace(vtkCamera* camera = nullptr);
+  /** As above, for bounds (xmin, xmax, ymin, ymax, zmin, zmax) in the world frame. */
+  bool FitWorkspace(const double bounds[6], vtkCamera* camera = nullptr);
+
+  ///@{
+  /**
+   * Starts and stops the servo thread; the device is opened where it is not. Engage() returns
+   * whether it runs; where not, GetErrorMessage() tells why. Release() asks for zero force and
+   * takes in the last ticks; the device stays open.
+   */
+  bool Engage();
+  void Release();
+  bool IsEngaged();
+  ///@}
+
+  /**
+   * Takes in what has changed and what the servo did since the last call. True where anything that
+   * a picture shows has changed: render only then.
+   */
+  bool Update();
+
+  /**
+   * Runs ticks in virtual time on this thread, for scripts and tests, then does what Update()
+   * does. Returns the ticks done; 0 and an error while engaged, without a device, or n < 1.
+   */
+  int Step(int n);
+
+  ///@{
+  /** State after the last Update() or Step(); zeros before the first. */
+  vtkGetVector3Macro(HapticInterfacePoint, double); ///< world frame [world unit]
+  vtkGetVector3Macro(GodObject, double);            ///< world frame [world unit]
+  vtkGetVector3Macro(Force, double);   ///< on the hand, the world's axes [N]; 0 when released
+  vtkGetMacro(Penetration, double);    ///< of the HIP below the god-object [world unit]
+  vtkGetMacro(Touching, bool);         ///< false when released
+  vtkGetMacro(TouchedSurface, int);    ///< id of the surface touched, else -1
+  vtkGetMacro(TouchedCell, vtkIdType); ///< id of its cell as it was given, else -1
+  ///@}
+
+  ///@{
+  /**
+   * Records every tick, over several Engage() too, whose times each start at 0. StartRecording()
+   * forgets the last trace. When MaximumTraceTicks are held recording stops with a warning.
+   */
+  void StartRecording();
+  void StopRecording();
+  vtkGetMacro(Recording, bool);
+  ///@}
+
+  ///@{
+  /** Ticks that a trace holds at most. Default 600,000 (ten minutes at 1 kHz, 72 MB); >= 1. */
+  vtkSetClampMacro(MaximumTraceTicks, vtkIdType, 1, VTK_ID_MAX);
+  vtkGetMacro(MaximumTraceTicks, vtkIdType);
+  ///@}
+
+  /**
+   * The trace so far: a polyline of the god-object, one point a tick, world frame, with the point
+   * arrays Time [s], HapticInterfacePoint [world unit], Force [N, world axes], ActiveConstraints,
+   * Surface (id, -1 in free space), OriginalCellId (-1 in free space), Penetration [world unit].
+   * Made anew at each call; empty where nothing was recorded. Ticks that came faster than Update()
+   * drained them are missing from it: see GetNumberOfLostTicks().
+   */
+  vtkPolyData* GetTrace();
+  /** Ticks since StartRecording() that the trace lacks. */
+  vtkIdType GetNumberOfLostTicks();
+
+  /**
+   * The prop that shows the state; add it to a renderer. Never null. The first call makes it, which
+   * needs VTK's rendering back end (VTK::RenderingOpenGL2) in the program; nothing else here does.
+   */
+  vtkGodObjectActor* GetGodObjectActor();
+  /** The servo: rate, statistics, priority. Its device and surfaces are this scene's business. */
+  vtkHapticServo* GetServo();
+  /** What went wrong last, for people; empty where nothing has. */
+  const char* GetErrorMessage() { return this->ErrorMessage.c_str(); }
+
+protected:
+  vtkHapticScene();
+  ~vtkHapticScene() override;
+
+private:
+  vtkHapticScene(const vtkHapticScene&) = delete;
+  void operator=(const vtkHapticScene&) = delete;
+
+  class Internals;
+  std::unique_ptr<Internals> Internal;
+
+  void Fail(const std::string& message);
+  bool PullSurfaces();
+  bool PullState();
+  void PullRecords();
+  bool ShowState();
+  void ShowInActor();
+
+  vtkNew<vtkHapticServo> Servo;
+  vtkSmartPointer<vtkGodObjectActor> Actor; // made when asked for: it needs a rendering back end
+  vtkNew<vtkPolyData> Trace;
+  vtkNew<vtkMatrix4x4> Workspace;
+  std::string ErrorMessage;
+
+  double HapticInterfacePoint[3] = { 0.0, 0.0, 0.0 };
+  double GodObject[3] = { 0.0, 0.0, 0.0 };
+  double Force[3] = { 0.0, 0.0, 0.0 };
+  double Penetration = 0.0;
+  bool Touching = false;
+  int TouchedSurface = -1;
+  vtkIdType TouchedCell = -1;
+  bool Engaged = false;
+  bool Recording = false;
+  vtkIdType MaximumTraceTicks = 600000;
+  vtkIdType LostTicks = 0;
+  vtkIdType LostBefore = 0;
+};
+
+#endif

@@ -1,0 +1,257 @@
+#include "vtkInteractorStyleHaptic.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCamera.h"
+#include "vtkCommand.h"
+#include "vtkGodObjectActor.h"
+#include "vtkHapticScene.h"
+#include "vtkObjectFactory.h"
+#include "vtkRenderWindow.h"
+#include "vtkRenderWindowInteractor.h"
+#include "vtkRenderer.h"
+#include "vtkRendererCollection.h"
+
+#include <algorithm>
+#include <cmath>
+
+vtkStandardNewMacro(vtkInteractorStyleHaptic);
+
+vtkInteractorStyleHaptic::vtkInteractorStyleHaptic()
+  : Scene(vtkSmartPointer<vtkHapticScene>::New())
+{
+  this->InteractorCallback->SetClientData(this);
+  this->InteractorCallback->SetCallback(vtkInteractorStyleHaptic::OnInteractorEvent);
+  this->ClippingRangeCallback->SetClientData(this);
+  this->ClippingRangeCallback->SetCallback(vtkInteractorStyleHaptic::OnClippingRangeReset);
+}
+
+vtkInteractorStyleHaptic::~vtkInteractorStyleHaptic()
+{
+  this->Watch(nullptr);
+  this->SetInteractor(nullptr);
+}
+
+void vtkInteractorStyleHaptic::SetScene(vtkHapticScene* scene)
+{
+  if (scene && this->Scene == scene)
+  {
+    return;
+  }
+  this->Scene = scene ? vtkSmartPointer<vtkHapticScene>(scene)
+                      : vtkSmartPointer<vtkHapticScene>::New();
+  this->Modified();
+}
+
+vtkHapticScene* vtkInteractorStyleHaptic::GetScene()
+{
+  return this->Scene;
+}
+
+void vtkInteractorStyleHaptic::SetMaximumFrameRate(double rate)
+{
+  if (!std::isfinite(rate))
+  {
+    vtkErrorMacro("A frame rate of " << rate << " means nothing; " << this->MaximumFrameRate
+                                     << " stays. Give 1 to 240.");
+    return;
+  }
+  rate = std::clamp(rate, 1.0, 240.0);
+  if (rate != this->MaximumFrameRate)
+  {
+    this->MaximumFrameRate = rate;
+    if (this->TimerId)
+    {
+      this->StopTimer();
+      this->StartTimer();
+    }
+    this->Modified();
+  }
+}
+
+void vtkInteractorStyleHaptic::SetInteractor(vtkRenderWindowInteractor* interactor)
+{
+  if (interactor == this->Interactor)
+  {
+    return;
+  }
+  if (this->Interactor)
+  {
+    this->StopTimer();
+    this->Interactor->RemoveObserver(this->InteractorCallback);
+  }
+  this->Superclass::SetInteractor(interactor);
+  if (interactor)
+  {
+    // Before the style's own observers, which would take the timer for the trackball's.
+    const float before = static_cast<float>(this->Priority) + 1.0f;
+    for (const unsigned long event :
+      { vtkCommand::TimerEvent, vtkCommand::ExitEvent, vtkCommand::DeleteEvent,
+        vtkCommand::ModifiedEvent, vtkCommand::RenderEvent })
+    {
+      interactor->AddObserver(event, this->InteractorCallback, before);
+    }
+    this->StartTimer();
+  }
+}
+
+void vtkInteractorStyleHaptic::OnInteractorEvent(
+  vtkObject*, unsigned long event, void* clientData, void* callData)
+{
+  auto* self = static_cast<vtkInteractorStyleHaptic*>(clientData);
+  switch (event)
+  {
+    case vtkCommand::TimerEvent:
+      if (self->TimerId && callData && *static_cast<int*>(callData) == self->TimerId)
+      {
+        // The trackball takes any timer for its own and would go on turning the camera.
+        self->InteractorCallback->SetAbortFlag(1);
+        self->UpdateScene();
+      }
+      break;
+    case vtkCommand::ExitEvent:
+      self->StopTimer();
+      self->Scene->Release();
+      break;
+    case vtkCommand::DeleteEvent:
+      self->Scene->Release();
+      self->TimerId = 0;
+      break;
+    default:
+      self->StartTimer();
+  }
+}
+
+void vtkInteractorStyleHaptic::StartTimer()
+{
+  // On some systems timers belong to the window, which is there once the interactor is
+  // initialised; the interactor's Modified and Render events bring us back here then.
+  if (!this->TimerId && this->Interactor && this->Interactor->GetInitialized() &&
+    !this->Interactor->GetDone())
+  {
+    const double period = std::ceil(1000.0 / this->MaximumFrameRate);
+    this->TimerId = std::max(
+      0, this->Interactor->CreateRepeatingTimer(static_cast<unsigned long>(period)));
+  }
+}
+
+void vtkInteractorStyleHaptic::StopTimer()
+{
+  if (this->TimerId)
+  {
+    this->Interactor->DestroyTimer(this->TimerId);
+    this->TimerId = 0;
+  }
+}
+
+vtkRenderer* vtkInteractorStyleHaptic::FindRenderer()
+{
+  vtkRenderWindow* window = this->Interactor ? this->Interactor->GetRenderWindow() : nullptr;
+  if (!window)
+  {
+    return nullptr;
+  }
+  vtkProp* prop = this->Scene->GetGodObjectActor();
+  vtkRendererCollection* renderers = window->GetRenderers();
+  vtkCollectionSimpleIterator iterator;
+  renderers->InitTraversal(iterator);
+  while (vtkRenderer* renderer = renderers->GetNextRenderer(iterator))
+  {
+    if (renderer->HasViewProp(prop))
+    {
+      return renderer;
+    }
+  }
+  return renderers->GetFirstRenderer();
+}
+
+void vtkInteractorStyleHaptic::Watch(vtkRenderer* renderer)
+{
+  if (renderer == this->WatchedRenderer)
+  {
+    return;
+  }
+  if (this->WatchedRenderer)
+  {
+    this->WatchedRenderer->RemoveObserver(this->ClippingRangeCallback);
+  }
+  this->WatchedRenderer = renderer;
+  if (renderer)
+  {
+    renderer->AddObserver(
+      vtkCommand::ResetCameraClippingRangeEvent, this->ClippingRangeCallback);
+  }
+}
+
+void vtkInteractorStyleHaptic::OnClippingRangeReset(
+  vtkObject* caller, unsigned long, void* clientData, void*)
+{
+  auto* self = static_cast<vtkInteractorStyleHaptic*>(clientData);
+  self->Scene->GetGodObjectActor()->IncludeInClippingRange(vtkRenderer::SafeDownCast(caller));
+}
+
+bool vtkInteractorStyleHaptic::UpdateScene()
+{
+  if (!this->Scene->Update())
+  {
+    return false;
+  }
+  vtkRenderer* renderer = this->FindRenderer();
+  this->Watch(renderer);
+  if (!renderer || !this->Interactor->GetInitialized())
+  {
+    return false;
+  }
+  renderer->ResetCameraClippingRange();
+  ++this->NumberOfRenders;
+  this->Interactor->Render();
+  return true;
+}
+
+void vtkInteractorStyleHaptic::OnChar()
+{
+  switch (this->Interactor->GetKeyCode())
+  {
+    case 'h':
+    case 'H':
+      if (this->Scene->IsEngaged())
+      {
+        this->Scene->Release();
+      }
+      else
+      {
+        this->Scene->Engage();
+      }
+      break;
+    case 'v':
+    case 'V':
+      if (vtkRenderer* renderer = this->FindRenderer())
+      {
+        this->Scene->FitWorkspace(renderer->GetActiveCamera());
+      }
+      break;
+    case 'b':
+    case 'B':
+    {
+      vtkGodObjectActor* actor = this->Scene->GetGodObjectActor();
+      actor->SetShowTrail(!actor->GetShowTrail());
+      if (!actor->GetShowTrail())
+      {
+        actor->ClearTrail();
+      }
+      this->Interactor->Render();
+      break;
+    }
+    default:
+      this->Superclass::OnChar();
+  }
+}
+
+void vtkInteractorStyleHaptic::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "MaximumFrameRate [1/s]: " << this->MaximumFrameRate << "\n";
+  os << indent << "TimerId: " << this->TimerId << "\n";
+  os << indent << "NumberOfRenders: " << this->NumberOfRenders << "\n";
+  os << indent << "Scene:\n";
+  this->Scene->PrintSelf(os, indent.GetNextIndent());
+}
