@@ -1,0 +1,250 @@
+"""Touches a surface from a file for some seconds and shows what was felt.
+
+The simulated device strokes the surface through the real servo thread, at 1000 ticks a second in
+real time. See --help.
+"""
+
+import argparse
+import os
+import shutil
+import sys
+import time
+
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonMath import vtkMatrix4x4
+from vtkmodules.vtkCommonTransforms import vtkTransform
+from vtkmodules.vtkFiltersGeneral import vtkTransformPolyDataFilter
+from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+from vtkmodules.vtkRenderingCore import vtkRenderWindow, vtkRenderWindowInteractor
+
+from . import vtkHapticScene, vtkInteractorStyleHaptic, vtkSimulatedHapticDevice
+from .picture import OutputError, Picture, add_hand, stroke_lines, write_atomically
+from .stroke import StrokeError, plan_stroke
+from .surfaces import READERS, SurfaceError, read_surface
+
+EXIT_DONE, EXIT_FAILED, EXIT_INPUT, EXIT_DISPLAY = 0, 1, 2, 3
+
+EPILOG = """examples:
+  python3 -m vtkhaptics.demo --surface gearbox.stl --output touched
+  python3 -m vtkhaptics.demo --surface skull.vtp --output touched --offscreen --seconds 30
+
+what it leaves in the output folder:
+  touched.png   the surface, the stroke coloured by force, and the hand at one moment:
+                god-object (gold), device (pale blue), force (red arrow)
+  trace.vtp     the path of the god-object, one point a tick, with the arrays Time [s],
+                HapticInterfacePoint, Force [N], ActiveConstraints, Surface, OriginalCellId,
+                Penetration
+
+exit status:
+  0 done; 1 the device or servo failed, less than half of the ticks touched, or a file could not
+  be written; 2 wrong arguments or a surface that cannot be read; 3 no display to draw with
+"""
+
+
+class DemoError(Exception):
+    """What went wrong and what to do, for people."""
+
+
+def parse(arguments):
+    parser = argparse.ArgumentParser(
+        prog="python3 -m vtkhaptics.demo",
+        description="Strokes a surface with a simulated haptic device in real time, draws what "
+        "was felt and prints how regular the servo was.",
+        epilog=EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument(
+        "--surface",
+        required=True,
+        metavar="FILE",
+        help="what to touch: " + ", ".join(sorted(READERS)),
+    )
+    parser.add_argument(
+        "--output", required=True, metavar="DIR", help="folder for the results, made if missing"
+    )
+    parser.add_argument(
+        "--seconds",
+        type=float,
+        default=10.0,
+        metavar="S",
+        help="how long to stroke, 2 to 600 (default 10)",
+    )
+    parser.add_argument(
+        "--offscreen", action="store_true", help="open no window, even where there is a display"
+    )
+    parser.add_argument(
+        "--stay", action="store_true", help="leave the window open at the end, until it is closed"
+    )
+    options = parser.parse_args(arguments)
+    if not 2.0 <= options.seconds <= 600.0:
+        parser.error(f"--seconds {options.seconds:g} is out of range; give 2 to 600")
+    return options
+
+
+def make_scene(surface, picture, path, depth):
+    """A scene over the surface with a device that follows the path, workspace fitted to it."""
+    device = vtkSimulatedHapticDevice()
+    scene = vtkHapticScene()
+    scene.AddSurface(surface)
+    scene.SetDevice(device)
+    if not scene.FitWorkspace(path.GetBounds(), picture.renderer.GetActiveCamera()):
+        raise DemoError(scene.GetErrorMessage())
+
+    to_world = scene.GetWorkspaceTransform()
+    to_device = vtkMatrix4x4()
+    vtkMatrix4x4.Invert(to_world, to_device)
+    transform = vtkTransform()
+    transform.SetMatrix(to_device)
+    mapped = vtkTransformPolyDataFilter()
+    mapped.SetTransform(transform)
+    mapped.SetInputData(path)
+    mapped.SetOutputPointsPrecision(1)  # float64
+    mapped.Update()
+    device.SetPath(mapped.GetOutput())
+    device.SetMotionToPolyline()
+
+    # About 1.2 N where the surface lies flat under the hand.
+    scale = to_world.Determinant() ** (1.0 / 3.0)
+    stiffness = 1.2 / (depth / scale)
+    scene.SetStiffness(min(max(stiffness, 50.0), device.GetMaximumStiffness()))
+    return scene
+
+
+def touch(scene, picture, seconds, window, stay):
+    """Engages the scene for some seconds; with a window, shows it live meanwhile."""
+    scene.StartRecording()
+    if window:
+        picture.renderer.AddViewProp(scene.GetGodObjectActor())
+        scene.GetGodObjectActor().ShowTrailOn()
+        interactor = vtkRenderWindowInteractor()
+        interactor.SetRenderWindow(picture.window)
+        style = vtkInteractorStyleHaptic()
+        style.SetScene(scene)
+        interactor.SetInteractorStyle(style)
+        interactor.Initialize()
+        picture.window.Render()
+    if not scene.Engage():
+        raise DemoError(scene.GetErrorMessage())
+    print(f"touching for {seconds:g} s ...", flush=True)
+    if window:
+        end = interactor.CreateOneShotTimer(int(1000 * seconds))
+
+        def on_timer(_caller, _event):
+            finish(scene)
+            if not stay:
+                interactor.TerminateApp()
+
+        interactor.AddObserver("TimerEvent", on_timer)
+        interactor.Start()
+        interactor.DestroyTimer(end)
+    else:
+        end = time.monotonic() + seconds
+        while time.monotonic() < end and scene.IsEngaged():
+            scene.Update()
+            time.sleep(1.0 / 60.0)
+    finish(scene)
+
+
+def finish(scene):
+    if scene.IsEngaged():
+        scene.Release()
+        scene.Update()
+        scene.StopRecording()
+
+
+def table(scene, trace):
+    """Rows of what was measured, and the share of ticks in contact."""
+    servo = scene.GetServo()
+    data = trace.GetPointData()
+    contact = float((vtk_to_numpy(data.GetArray("ActiveConstraints")) > 0).mean())
+    force = np.linalg.norm(vtk_to_numpy(data.GetArray("Force")), axis=1)
+    rows = [
+        ("ticks", f"{servo.GetNumberOfTicks()}"),
+        ("ticks in the trace", f"{trace.GetNumberOfPoints()}"),
+        ("in contact", f"{100.0 * contact:.1f} %"),
+        ("rate", f"{servo.GetRate():.1f} Hz"),
+        ("E[T^2]/E[T]", f"{1e3 * servo.GetPeriodRatio():.4f} ms"),
+        ("T_max", f"{1e3 * servo.GetMaximumPeriod():.3f} ms"),
+        ("missed ticks", f"{servo.GetNumberOfMissedTicks()}"),
+        ("tick time, median", f"{1e6 * servo.GetTickTimeQuantile(0.5):.1f} us"),
+        ("tick time, p99.9", f"{1e6 * servo.GetTickTimeQuantile(0.999):.1f} us"),
+        ("largest force", f"{force.max():.2f} N"),
+        ("stiffness", f"{scene.GetStiffness():.0f} N/m"),
+    ]
+    return rows, contact
+
+
+def needs_display():
+    """Whether this VTK can only draw with an X server."""
+    return vtkRenderWindow().IsA("vtkXOpenGLRenderWindow") and not os.environ.get("DISPLAY")
+
+
+def run(options):
+    surface = read_surface(options.surface)
+    try:
+        os.makedirs(options.output, exist_ok=True)
+    except OSError as error:
+        raise OutputError(
+            f"{options.output}: cannot be made a folder ({error.strerror}). Choose another."
+        ) from error
+    name = os.path.basename(options.surface)
+    print(f"surface: {name}, {surface.GetNumberOfCells()} cells", flush=True)
+
+    plan = plan_stroke(surface, options.seconds)
+    window = not options.offscreen and bool(os.environ.get("DISPLAY"))
+    picture = Picture(surface, plan.view, name, offscreen=not window)
+    scene = make_scene(surface, picture, plan.path, plan.depth)
+    touch(scene, picture, options.seconds, window, options.stay)
+
+    trace = scene.GetTrace()
+    if trace.GetNumberOfPoints() == 0:
+        raise DemoError("the servo did not tick: " + (scene.GetErrorMessage() or "no cause given"))
+    rows, contact = table(scene, trace)
+    width = max(len(label) for label, _ in rows)
+    for label, value in rows:
+        print(f"  {label:<{width}}  {value}")
+    note = scene.GetServo().GetPriorityNote()
+    if note:
+        print("  note: " + note)
+
+    trace_file = os.path.join(options.output, "trace.vtp")
+    picture_file = os.path.join(options.output, "touched.png")
+    write_atomically(trace_file, trace, vtkXMLPolyDataWriter())
+    picture.add_stroke(stroke_lines(trace), picture.world_size(0.0035))
+    add_hand(picture, scene.GetGodObjectActor(), trace)
+    picture.save(picture_file)
+    print(f"picture: {picture_file}\ntrace:   {trace_file}")
+    if contact <= 0.5:
+        raise DemoError(
+            f"only {100.0 * contact:.0f} % of the ticks touched the surface; "
+            "it may be too rugged for the planned stroke."
+        )
+
+
+def main(arguments=None):
+    options = parse(arguments)
+    if needs_display():
+        xvfb = shutil.which("xvfb-run")
+        if not xvfb:
+            print(
+                "demo: this VTK needs an X server to draw, and DISPLAY is not set. "
+                "Install xvfb (Debian: apt-get install xvfb xauth) and try again.",
+                file=sys.stderr,
+            )
+            return EXIT_DISPLAY
+        again = [sys.executable, "-m", "vtkhaptics.demo", "--offscreen"]
+        os.execv(xvfb, [xvfb, "-a", *again, *(arguments or sys.argv[1:])])
+    try:
+        run(options)
+    except SurfaceError as error:
+        print(f"demo: {error}", file=sys.stderr)
+        return EXIT_INPUT
+    except (DemoError, OutputError, StrokeError) as error:
+        print(f"demo: {error}", file=sys.stderr)
+        return EXIT_FAILED
+    return EXIT_DONE
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,262 @@
+"""Draws a touched surface: the surface well lit, the stroke over it coloured by force, the hand."""
+
+import math
+import os
+import tempfile
+
+import numpy as np
+import vtkmodules.vtkInteractionStyle  # noqa: F401  (registers the interactors)
+import vtkmodules.vtkRenderingFreeType  # noqa: F401  (registers the text renderer)
+import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  (registers the render window)
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkLookupTable
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkPolyDataNormals, vtkTubeFilter
+from vtkmodules.vtkIOImage import vtkPNGWriter
+from vtkmodules.vtkImagingCore import vtkImageResize
+from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
+from vtkmodules.vtkRenderingCore import (
+    vtkActor,
+    vtkLight,
+    vtkPolyDataMapper,
+    vtkRenderer,
+    vtkRenderWindow,
+    vtkTextActor,
+    vtkWindowToImageFilter,
+)
+
+SIZE = (1200, 800)
+BACKGROUND = ((0.93, 0.94, 0.96), (0.66, 0.71, 0.78))
+
+
+class OutputError(Exception):
+    """What could not be written, where, and what to do; for people."""
+
+
+class Picture:
+    """A render window with a surface, seen from where it is touched."""
+
+    def __init__(self, surface, view, title, offscreen):
+        self.renderer = vtkRenderer()
+        self.renderer.SetBackground(*BACKGROUND[0])
+        self.renderer.SetBackground2(*BACKGROUND[1])
+        self.renderer.GradientBackgroundOn()
+        self.surface_actor = self._add_surface(surface)
+        self._light()
+        self._aim(view, surface)
+        self._add_text(title)
+        self.window = vtkRenderWindow()
+        self.window.SetOffScreenRendering(offscreen)
+        self.window.SetSize(*SIZE)
+        self.window.SetMultiSamples(8)
+        self.window.SetWindowName("VTK Haptics: " + title)
+        self.window.AddRenderer(self.renderer)
+
+    def _add_surface(self, surface):
+        normals = vtkPolyDataNormals()
+        normals.SetInputData(surface)
+        normals.SetFeatureAngle(35.0)
+        normals.ConsistencyOff()
+        mapper = vtkPolyDataMapper()
+        mapper.SetInputConnection(normals.GetOutputPort())
+        mapper.ScalarVisibilityOff()
+        actor = vtkActor()
+        actor.SetMapper(mapper)
+        look = actor.GetProperty()
+        look.SetColor(0.74, 0.80, 0.86)
+        look.SetAmbient(0.12)
+        look.SetDiffuse(0.85)
+        look.SetSpecular(0.22)
+        look.SetSpecularPower(24.0)
+        self.renderer.AddActor(actor)
+        return actor
+
+    def _light(self):
+        """A warm key from the upper left, a cool fill from the right, a rim from behind."""
+        self.renderer.AutomaticLightCreationOff()
+        self.renderer.RemoveAllLights()
+        for position, color, intensity in (
+            ((-0.9, 1.1, 1.1), (1.0, 0.97, 0.92), 1.0),
+            ((1.2, 0.1, 0.7), (0.86, 0.92, 1.0), 0.5),
+            ((0.2, 0.9, -1.0), (1.0, 1.0, 1.0), 0.35),
+        ):
+            light = vtkLight()
+            light.SetLightTypeToCameraLight()
+            light.SetPosition(*position)
+            light.SetFocalPoint(0.0, 0.0, 0.0)
+            light.SetColor(*color)
+            light.SetIntensity(intensity)
+            self.renderer.AddLight(light)
+
+    def _aim(self, view, surface):
+        """Fills the picture with the surface, as seen along the view."""
+        points = vtk_to_numpy(surface.GetPoints().GetData()) - view.center
+        corners = [points @ axis for axis in (view.right, view.up, view.out)]
+        low = np.array([c.min() for c in corners])
+        high = np.array([c.max() for c in corners])
+        middle, half = 0.5 * (low + high), 0.5 * (high - low)
+        angle = 24.0
+        need = max(half[0] * SIZE[1] / SIZE[0], half[1]) * 1.12
+        distance = need / math.tan(math.radians(0.5 * angle)) + half[2]
+        focus = view.to_world(*([m] for m in middle))[0]
+        camera = self.renderer.GetActiveCamera()
+        camera.SetFocalPoint(*focus)
+        camera.SetPosition(*(focus + distance * view.out))
+        camera.SetViewUp(*view.up)
+        camera.SetViewAngle(angle)
+        self.renderer.ResetCameraClippingRange()
+
+    def _add_text(self, title):
+        text = vtkTextActor()
+        text.SetInput(title)
+        text.GetTextProperty().SetFontSize(20)
+        text.GetTextProperty().SetColor(0.18, 0.21, 0.27)
+        text.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
+        text.SetPosition(0.02, 0.95)
+        self.renderer.AddActor2D(text)
+
+    def add_stroke(self, stroke, radius):
+        """Draws lines as tubes of a radius [world unit], coloured by the magnitude of Force [N]."""
+        stroke.GetPointData().SetActiveScalars("ForceMagnitude")
+        strongest = stroke.GetPointData().GetArray("ForceMagnitude").GetRange()[1]
+        tubes = vtkTubeFilter()
+        tubes.SetInputData(stroke)
+        tubes.SetRadius(radius)
+        tubes.SetNumberOfSides(12)
+        tubes.CappingOn()
+        colors = _force_colors(strongest)
+        mapper = vtkPolyDataMapper()
+        mapper.SetInputConnection(tubes.GetOutputPort())
+        mapper.SelectColorArray("ForceMagnitude")
+        mapper.SetScalarModeToUsePointFieldData()
+        mapper.SetLookupTable(colors)
+        mapper.UseLookupTableScalarRangeOn()
+        actor = vtkActor()
+        actor.SetMapper(mapper)
+        actor.PickableOff()
+        actor.GetProperty().SetAmbient(0.35)
+        actor.GetProperty().SetDiffuse(0.75)
+        self.renderer.AddActor(actor)
+        self._add_legend(colors)
+
+    def _add_legend(self, colors):
+        bar = vtkScalarBarActor()
+        bar.SetLookupTable(colors)
+        bar.SetTitle("force [N]")
+        bar.SetNumberOfLabels(4)
+        bar.SetLabelFormat("%.1f")
+        bar.UnconstrainedFontSizeOn()
+        bar.SetMaximumWidthInPixels(70)
+        bar.SetMaximumHeightInPixels(260)
+        bar.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
+        bar.SetPosition(0.925, 0.05)
+        for text in (bar.GetTitleTextProperty(), bar.GetLabelTextProperty()):
+            text.SetColor(0.18, 0.21, 0.27)
+            text.SetFontSize(15)
+            text.ItalicOff()
+            text.BoldOff()
+            text.ShadowOff()
+        self.renderer.AddActor2D(bar)
+
+    def world_size(self, share_of_height):
+        """A length [world unit] that is a share of the picture's height, at the focal point."""
+        camera = self.renderer.GetActiveCamera()
+        half = math.tan(math.radians(0.5 * camera.GetViewAngle()))
+        return share_of_height * 2.0 * camera.GetDistance() * half
+
+    def save(self, path):
+        """Writes a PNG, drawn at twice the size and averaged down for clean edges."""
+        self.window.Render()
+        shot = vtkWindowToImageFilter()
+        shot.SetInput(self.window)
+        shot.SetScale(2)
+        shot.ReadFrontBufferOff()
+        resize = vtkImageResize()
+        resize.SetInputConnection(shot.GetOutputPort())
+        resize.SetOutputDimensions(*self.window.GetSize(), 1)
+        resize.Update()
+        write_atomically(path, resize.GetOutput(), vtkPNGWriter())
+
+
+def _force_colors(strongest):
+    """From pale gold for a light touch to deep crimson for a hard one."""
+    stops = ((0.0, (1.0, 0.93, 0.60)), (0.45, (1.0, 0.60, 0.18)), (1.0, (0.72, 0.05, 0.15)))
+    table = vtkLookupTable()
+    table.SetNumberOfTableValues(256)
+    table.SetTableRange(0.0, max(strongest, 1e-12))
+    table.Build()
+    for i in range(256):
+        x = i / 255.0
+        (x0, low), (x1, high) = (stops[0], stops[1]) if x < stops[1][0] else (stops[1], stops[2])
+        f = (x - x0) / (x1 - x0)
+        table.SetTableValue(i, *((1.0 - f) * a + f * b for a, b in zip(low, high)), 1.0)
+    return table
+
+
+def stroke_lines(trace, every=4):
+    """The parts of a trace in contact, as lines with the point array ForceMagnitude [N]."""
+    points = vtk_to_numpy(trace.GetPoints().GetData())
+    force = np.linalg.norm(vtk_to_numpy(trace.GetPointData().GetArray("Force")), axis=1)
+    touching = vtk_to_numpy(trace.GetPointData().GetArray("ActiveConstraints")) > 0
+    lines = vtkCellArray()
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], touching, [False]]).astype(int)))
+    for begin, end in edges.reshape(-1, 2):
+        ids = range(begin, end, every)
+        lines.InsertNextCell(len(ids))
+        for id_ in ids:
+            lines.InsertCellPoint(id_)
+    stroke = vtkPolyData()
+    stroke.SetPoints(trace.GetPoints())
+    stroke.SetLines(lines)
+    magnitude = numpy_to_vtk(force, deep=True)
+    magnitude.SetName("ForceMagnitude")
+    stroke.GetPointData().AddArray(magnitude)
+    # A hand at rest leaves equal points, which a tube cannot go through.
+    clean = vtkCleanPolyData()
+    clean.SetInputData(stroke)
+    clean.ToleranceIsAbsoluteOn()
+    clean.SetAbsoluteTolerance(0.0)
+    clean.ConvertLinesToPointsOff()
+    clean.Update()
+    return clean.GetOutput()
+
+
+def add_hand(picture, actor, trace):
+    """Shows the hand as it was in the tick whose force is seen best from the camera."""
+    points = vtk_to_numpy(trace.GetPoints().GetData())
+    data = trace.GetPointData()
+    force = vtk_to_numpy(data.GetArray("Force"))
+    hip = vtk_to_numpy(data.GetArray("HapticInterfacePoint"))
+    toward = np.array(picture.renderer.GetActiveCamera().GetDirectionOfProjection())
+    across = np.linalg.norm(force - np.outer(force @ toward, toward), axis=1)
+    tick = int(across.argmax())
+    actor.SetGodObject(points[tick])
+    actor.SetHapticInterfacePoint(hip[tick])
+    actor.SetForce(force[tick])
+    actor.SetTouching(bool(data.GetArray("ActiveConstraints").GetValue(tick) > 0))
+    actor.ShowTrailOff()
+    actor.SetReferenceForce(max(float(np.linalg.norm(force[tick])), 1e-12))
+    if not picture.renderer.HasViewProp(actor):
+        picture.renderer.AddViewProp(actor)
+    picture.renderer.ResetCameraClippingRange()
+    actor.IncludeInClippingRange(picture.renderer)
+
+
+def write_atomically(path, data, writer):
+    """Writes a file as a whole or not at all. Raises OutputError where it cannot be written."""
+    folder = os.path.dirname(os.path.abspath(path))
+    try:
+        handle, temporary = tempfile.mkstemp(suffix=os.path.splitext(path)[1], dir=folder)
+    except OSError as error:
+        raise OutputError(
+            f"{path}: could not be written ({error.strerror}). Choose another folder."
+        ) from error
+    os.close(handle)
+    writer.SetInputData(data)
+    writer.SetFileName(temporary)
+    writer.Write()
+    if writer.GetErrorCode() or os.path.getsize(temporary) == 0:
+        os.remove(temporary)
+        raise OutputError(f"{path}: could not be written. Check the space left on the disk.")
+    os.chmod(temporary, 0o644)
+    os.replace(temporary, path)

@@ -1,0 +1,188 @@
+"""Plans where a hand can stroke a surface that nobody has seen before.
+
+The surface is looked at from a few sides; from each, rays make a height map of what lies in front.
+Closed curves of several sizes, places and shapes are laid on the map, and the one that stays on
+the surface, over few steps and cliffs, at the largest size, is taken. The hand then follows the
+curve a little below the surface. The same surface always gives the same stroke.
+"""
+
+import math
+
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonCore import mutable, vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData, vtkStaticCellLocator
+
+MAP_SIZE = 64  # rays across the map
+CURVE_SAMPLES = 240
+STEEP = 1.2  # rise over run that counts as a cliff
+APPROACH = 0.4  # [s] to come down, and to lift off
+
+
+class View:
+    """An orthographic look at a surface: axes right, up and out (towards the viewer)."""
+
+    def __init__(self, surface, azimuth, elevation):
+        azimuth, elevation = math.radians(azimuth), math.radians(elevation)
+        self.out = np.array(
+            [
+                math.cos(elevation) * math.cos(azimuth),
+                math.cos(elevation) * math.sin(azimuth),
+                math.sin(elevation),
+            ]
+        )
+        self.right = np.array([-math.sin(azimuth), math.cos(azimuth), 0.0])
+        self.up = np.cross(self.out, self.right)
+        bounds = np.array(surface.GetBounds()).reshape(3, 2)
+        self.center = bounds.mean(axis=1)
+        # Half the diagonal: the same for all views, so that their curves can be compared.
+        self.radius = 0.5 * np.linalg.norm(bounds[:, 1] - bounds[:, 0])
+
+    def to_world(self, u, v, w):
+        """World points of coordinates along right, up and out, from the center."""
+        return self.center + np.outer(u, self.right) + np.outer(v, self.up) + np.outer(w, self.out)
+
+    def heights(self, locator, u, v):
+        """How far out the foremost surface is at each (u, v); NaN where there is none."""
+        t, id_ = mutable(0.0), mutable(0)
+        part, hit, local = mutable(0), [0.0] * 3, [0.0] * 3
+        reach = 1.1 * self.radius
+        starts = self.to_world(u, v, np.full(len(u), reach))
+        ends = self.to_world(u, v, np.full(len(u), -reach))
+        heights = np.full(len(u), np.nan)
+        for i, (start, end) in enumerate(zip(starts, ends)):
+            if locator.IntersectWithLine(start, end, 1e-6 * reach, t, hit, local, part, id_):
+                heights[i] = reach - 2.0 * reach * float(t)
+        return heights
+
+
+def _curves():
+    """Candidates in units of the view's radius: (size, u, v), closed, without haste anywhere."""
+    s = np.linspace(0.0, 2.0 * math.pi, CURVE_SAMPLES, endpoint=False)
+    for half_width in (0.62, 0.5, 0.4, 0.32, 0.25, 0.19, 0.14, 0.1):
+        for flatness in (1.0, 0.6, 0.35):
+            for turn in (0.0, 45.0, 90.0, 135.0):
+                if flatness == 1.0 and turn >= 90.0:
+                    continue
+                u = half_width * np.sin(2.0 * s)
+                v = half_width * flatness * np.sin(5.0 * s + 0.5 * math.pi)
+                c, d = math.cos(math.radians(turn)), math.sin(math.radians(turn))
+                yield half_width * math.sqrt(flatness), c * u - d * v, d * u + c * v
+
+
+def _score(view, grid, u, v):
+    """Share of a curve that is good to stroke, given the height map; 0 and less is useless."""
+    scale = (MAP_SIZE - 1) / (2.0 * view.radius)
+    column = np.rint((u + view.radius) * scale).astype(int)
+    row = np.rint((v + view.radius) * scale).astype(int)
+    if column.min() < 0 or row.min() < 0 or max(column.max(), row.max()) >= MAP_SIZE:
+        return -1.0
+    height = grid[row, column]
+    missing = np.isnan(height).mean()
+    rise = np.abs(np.diff(height, append=height[0]))
+    run = np.hypot(np.diff(u, append=u[0]), np.diff(v, append=v[0]))
+    # Neighbouring map cells may differ by a cell's slope without there being a cliff.
+    cliffs = (rise > STEEP * np.maximum(run, 1.5 / scale)).mean()
+    return 1.0 - 6.0 * missing - 5.0 * cliffs
+
+
+def _best_curve(view, locator):
+    """(score, u, v) of the best candidate seen from a view."""
+    axis = np.linspace(-view.radius, view.radius, MAP_SIZE)
+    columns, rows = np.meshgrid(axis, axis)
+    grid = view.heights(locator, columns.ravel(), rows.ravel()).reshape(MAP_SIZE, MAP_SIZE)
+    covered = np.isfinite(grid).mean()
+    best = (0.0, None, None)
+    for size, u, v in _curves():
+        for cu in np.linspace(-0.6, 0.6, 9):
+            for cv in np.linspace(-0.6, 0.6, 9):
+                cu_, cv_ = cu * view.radius, cv * view.radius
+                good = _score(view, grid, u * view.radius + cu_, v * view.radius + cv_)
+                # Rather near the middle of the picture, and rather a view that shows much.
+                value = max(good, 0.0) ** 3 * size * (1.0 - 0.15 * math.hypot(cu, cv)) * math.sqrt(covered)
+                if value > best[0]:
+                    best = (value, u * view.radius + cu_, v * view.radius + cv_)
+    return best
+
+
+def _smooth(values, width):
+    """A moving average over 2 width + 1 samples of a closed curve."""
+    kernel = np.hanning(2 * width + 3)[1:-1]
+    padded = np.concatenate([values[-width:], values, values[:width]])
+    return np.convolve(padded, kernel / kernel.sum(), mode="valid")
+
+
+def _lowest_nearby(values, width):
+    padded = np.concatenate([values[-width:], values, values[:width]])
+    return np.lib.stride_tricks.sliding_window_view(padded, 2 * width + 1).min(axis=1)
+
+
+class StrokeError(Exception):
+    """Why no stroke could be planned, for people."""
+
+
+class Plan:
+    """A stroke: the view to touch from, the path of the hand and its depth.
+
+    `path` is a vtkPolyData of one line in the world frame with the point array Time [s]; `depth`
+    [world unit] is how far below the surface it goes.
+    """
+
+    def __init__(self, view, path, depth):
+        self.view = view
+        self.path = path
+        self.depth = depth
+
+
+def plan_stroke(surface, seconds, depth_share=0.022):
+    """Plans a stroke of some seconds.
+
+    `depth_share` is the plan's depth as a share of half the diagonal of the surface's bounds.
+    Raises StrokeError where nothing can be stroked.
+    """
+    locator = vtkStaticCellLocator()
+    locator.SetDataSet(surface)
+    locator.BuildLocator()
+    views = [View(surface, a, e) for e in (28, 55) for a in (-60, 30, 120, 210)]
+    value, view, (u, v) = max(
+        ((value, view, (u, v)) for view in views for value, u, v in [_best_curve(view, locator)]),
+        key=lambda found: found[0],
+    )
+    if value <= 0.0:
+        raise StrokeError(
+            "no part of the surface is large and smooth enough for a stroke. Try another surface."
+        )
+
+    samples = max(50, int(200 * (seconds - 2.0 * APPROACH)))
+    s = np.linspace(0.0, CURVE_SAMPLES, samples, endpoint=False)
+    u, v = (np.interp(s, np.arange(CURVE_SAMPLES + 1), np.append(c, c[0])) for c in (u, v))
+    height = view.heights(locator, u, v)
+    known = np.flatnonzero(np.isfinite(height))
+    height = np.interp(np.arange(samples), known, height[known], period=samples)
+    width = max(1, samples // 250)
+    depth = depth_share * view.radius
+    height = _smooth(_lowest_nearby(height, width), width) - depth
+
+    ramp = np.linspace(0.0, 1.0, int(200 * APPROACH), endpoint=False)
+    above = (1.0 - np.sin(0.5 * math.pi * ramp)) * 4.0 * depth
+    u = np.concatenate([np.full(len(ramp), u[0]), u, np.full(len(ramp), u[0])])
+    v = np.concatenate([np.full(len(ramp), v[0]), v, np.full(len(ramp), v[0])])
+    w = np.concatenate([height[0] + above, height, height[0] + above[::-1]])
+    path = _polyline(view.to_world(u, v, w), np.linspace(0.0, seconds, len(u)))
+    return Plan(view, path, depth)
+
+
+def _polyline(points, time):
+    path = vtkPolyData()
+    vtk_points = vtkPoints()
+    vtk_points.SetData(numpy_to_vtk(points, deep=True))
+    path.SetPoints(vtk_points)
+    line = vtkCellArray()
+    line.InsertNextCell(len(points))
+    for i in range(len(points)):
+        line.InsertCellPoint(i)
+    path.SetLines(line)
+    array = numpy_to_vtk(time, deep=True)
+    array.SetName("Time")
+    path.GetPointData().AddArray(array)
+    return path
