@@ -19,6 +19,7 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -140,8 +141,12 @@ int PassAttributes(
     vtkNew<vtkIdList> sources;
     sources->SetNumberOfIds(count);
     std::copy_n(ids->GetPointer(0), count, sources->GetPointer(0));
+    // VTK 9.1 copies a list of elements only to a list of destinations.
+    vtkNew<vtkIdList> destinations;
+    destinations->SetNumberOfIds(count);
+    std::iota(destinations->GetPointer(0), destinations->GetPointer(0) + count, vtkIdType{ 0 });
     to->CopyAllocate(whole, count);
-    to->CopyData(whole, sources);
+    to->CopyData(whole, sources, destinations);
   }
   to->AddArray(ids);
   return dropped;
