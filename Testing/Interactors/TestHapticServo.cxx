@@ -1,0 +1,328 @@
+#include "ServoStatistics.h"
+#include "ServoTestTools.h"
+#include "TickRecord.h"
+#include "vtkHapticServo.h"
+#include "vtkSimulatedHapticDevice.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkMatrix4x4.h"
+#include "vtkNew.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <thread>
+
+using haptics::TickRecord;
+
+namespace
+{
+/// Counts events of a kind; an observed error stays out of the test's output.
+class Listener
+{
+public:
+  Listener(vtkObject* object, unsigned long event)
+    : Object(object)
+  {
+    this->Command->SetClientData(&this->Count);
+    this->Command->SetCallback(
+      [](vtkObject*, unsigned long, void* count, void*) { ++*static_cast<int*>(count); });
+    object->AddObserver(event, this->Command);
+  }
+  ~Listener() { this->Object->RemoveObserver(this->Command); }
+  int Count = 0;
+
+private:
+  vtkObject* Object;
+  vtkNew<vtkCallbackCommand> Command;
+};
+
+/// The simulated device, stroking 2 mm below a plane at z = 0 for 1 s or more.
+class HapticServo : public ::testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    this->Device->SetMotionToStroke();
+    this->Device->SetStrokeBounds(-0.02, 0.02, -0.02, 0.02, 0.0, 0.0);
+    this->Device->SetPressDepth(0.002);
+    this->Device->SetStrokeClearance(0.002);
+    this->Device->SetSpeed(0.1);
+    ASSERT_TRUE(this->Device->Open()) << this->Device->GetErrorMessage();
+    this->Servo->SetDevice(this->Device);
+    this->Servo->SetStallLimit(60.0); // a busy machine is no fault in a test
+    this->Servo->PublishGodObject(MakeGodObject(MakePlane()));
+  }
+
+  /// Updates until that many ticks are done or the servo has ended.
+  void WaitForTicks(int ticks)
+  {
+    while (this->Servo->GetNumberOfTicks() < ticks && this->Servo->IsRunning())
+    {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      this->Servo->Update();
+    }
+    this->Servo->Update();
+  }
+
+  double DeviceForce()
+  {
+    double force[3];
+    this->Device->GetForce(force);
+    return std::hypot(force[0], force[1], force[2]);
+  }
+
+  vtkNew<vtkSimulatedHapticDevice> Device;
+  vtkNew<vtkHapticServo> Servo;
+};
+
+TEST_F(HapticServo, StrokesAPlaneInVirtualTime)
+{
+  EXPECT_EQ(this->Servo->Step(1000), 1000);
+  EXPECT_STREQ(this->Servo->GetStateAsString(), "Stepping");
+  double force[3];
+  double hip[3];
+  double god[3];
+  this->Servo->GetForce(force);
+  this->Servo->GetHapticInterfacePoint(hip);
+  this->Servo->GetGodObject(god);
+  EXPECT_NEAR(force[2], 1.0, 2e-3) << "500 N/m, 2 mm deep, standing off by a millionth of the size";
+  EXPECT_NEAR(hip[2], -0.002, 1e-12);
+  EXPECT_NEAR(god[2], 0.0, 4e-6);
+  EXPECT_EQ(this->Servo->GetNumberOfConstraints(), 1);
+  EXPECT_NEAR(this->Servo->GetPenetration(), 0.002, 4e-6);
+  EXPECT_NEAR(this->Servo->GetTime(), 0.999, 1e-12);
+  EXPECT_NEAR(this->DeviceForce(), 1.0, 2e-3) << "the device was asked for the same";
+}
+
+TEST_F(HapticServo, GivesTheSameTicksInEveryRunInVirtualTime)
+{
+  std::vector<TickRecord> runs[2];
+  for (std::vector<TickRecord>& run : runs)
+  {
+    ASSERT_EQ(this->Servo->Step(700), 700);
+    ASSERT_EQ(this->Servo->Step(800), 800);
+    this->Servo->DrainRecords(run);
+    this->Servo->Stop();
+  }
+  ASSERT_EQ(runs[0].size(), 1500u);
+  ASSERT_EQ(runs[1].size(), 1500u);
+  for (std::size_t i = 0; i < runs[0].size(); ++i)
+  {
+    ASSERT_EQ(runs[0][i].Time, runs[1][i].Time);
+    ASSERT_EQ(runs[0][i].Hip, runs[1][i].Hip);
+    ASSERT_EQ(runs[0][i].GodObject, runs[1][i].GodObject);
+    ASSERT_EQ(runs[0][i].Force, runs[1][i].Force);
+  }
+}
+
+TEST_F(HapticServo, HasExactPeriodsInVirtualTime)
+{
+  this->Servo->SetRate(500.0);
+  ASSERT_EQ(this->Servo->Step(100), 100);
+  EXPECT_EQ(this->Servo->GetNumberOfTicks(), 100);
+  EXPECT_EQ(this->Servo->GetNumberOfMissedTicks(), 0);
+  EXPECT_NEAR(this->Servo->GetMeasuredRate(), 500.0, 1e-6);
+  EXPECT_NEAR(this->Servo->GetPeriodRatio(), 0.002, 1e-12);
+  EXPECT_NEAR(this->Servo->GetMaximumPeriod(), 0.002, 1e-12);
+  EXPECT_NEAR(this->Servo->GetTime(), 99 * 0.002, 1e-12);
+}
+
+TEST_F(HapticServo, StrokesAPlaneInRealTime)
+{
+  Listener changes(this->Servo, vtkHapticServo::StateChangedEvent);
+  ASSERT_TRUE(this->Servo->Start()) << this->Servo->GetErrorMessage();
+  EXPECT_TRUE(this->Servo->IsRunning());
+  EXPECT_EQ(this->Servo->GetState(), vtkHapticServo::Running);
+  EXPECT_STRNE(this->Servo->GetPriorityNote(), "");
+  this->WaitForTicks(1000);
+  this->Servo->Stop();
+
+  EXPECT_EQ(changes.Count, 2) << "Running, then Stopped";
+  EXPECT_EQ(this->Servo->GetState(), vtkHapticServo::Stopped);
+  EXPECT_EQ(this->DeviceForce(), 0.0);
+  std::vector<TickRecord> records;
+  this->Servo->DrainRecords(records);
+  const auto ticks = static_cast<std::size_t>(this->Servo->GetNumberOfTicks());
+  ASSERT_GE(ticks, 1000u);
+  EXPECT_EQ(
+    records.size() + static_cast<std::size_t>(this->Servo->GetNumberOfLostRecords()), ticks);
+  std::size_t touching = 0;
+  for (const TickRecord& record : records)
+  {
+    touching += record.NumberOfConstraints > 0;
+    ASSERT_LE(record.Force[2], 1.0 + 2e-3);
+  }
+  EXPECT_GT(touching, records.size() / 2);
+  EXPECT_GE(this->Servo->GetPeriodRatio(), this->Servo->GetMeanPeriod() * (1.0 - 1e-12));
+  EXPECT_LE(this->Servo->GetTickTimeQuantile(0.5), this->Servo->GetTickTimeQuantile(0.999));
+}
+
+TEST_F(HapticServo, CountsTheSameInItsHistograms)
+{
+  ASSERT_EQ(this->Servo->Step(200), 200);
+  vtkTypeInt64 periods = 0;
+  vtkTypeInt64 tickTimes = 0;
+  for (int bin = 0; bin < vtkHapticServo::GetNumberOfHistogramBins(); ++bin)
+  {
+    ASSERT_LT(vtkHapticServo::GetHistogramEdge(bin), vtkHapticServo::GetHistogramEdge(bin + 1));
+    periods += this->Servo->GetPeriodCount(bin);
+    tickTimes += this->Servo->GetTickTimeCount(bin);
+  }
+  EXPECT_EQ(periods, 199);
+  EXPECT_EQ(tickTimes, 200);
+  EXPECT_EQ(this->Servo->GetPeriodCount(-1), 0);
+  EXPECT_EQ(this->Servo->GetPeriodCount(vtkHapticServo::GetNumberOfHistogramBins()), 0);
+}
+
+TEST_F(HapticServo, TellsThatTheDeviceWasClosedWhileItRan)
+{
+  Listener errors(this->Servo, vtkCommand::ErrorEvent);
+  ASSERT_TRUE(this->Servo->Start()) << this->Servo->GetErrorMessage();
+  this->WaitForTicks(150);
+  this->Device->Close();
+  this->WaitForTicks(1000000);
+  EXPECT_EQ(this->Servo->GetState(), vtkHapticServo::DeviceLost);
+  EXPECT_EQ(errors.Count, 1);
+  EXPECT_NE(std::string(this->Servo->GetErrorMessage()).find("device"), std::string::npos);
+  double force[3] = { 1.0, 1.0, 1.0 };
+  this->Servo->GetForce(force);
+  EXPECT_EQ(std::hypot(force[0], force[1], force[2]), 0.0);
+  EXPECT_EQ(this->DeviceForce(), 0.0);
+
+  ASSERT_TRUE(this->Device->Open());
+  EXPECT_TRUE(this->Servo->Start()) << "a fault is over with the next start";
+  EXPECT_STREQ(this->Servo->GetErrorMessage(), "");
+}
+
+TEST_F(HapticServo, StopsStepsAtAClosedDevice)
+{
+  Listener errors(this->Servo, vtkCommand::ErrorEvent);
+  ASSERT_EQ(this->Servo->Step(200), 200);
+  this->Device->Close();
+  EXPECT_EQ(this->Servo->Step(10), 0);
+  EXPECT_EQ(this->Servo->GetState(), vtkHapticServo::DeviceLost);
+  EXPECT_EQ(this->Servo->Step(10), 0) << "and the device is still closed";
+  EXPECT_EQ(errors.Count, 2);
+}
+
+TEST_F(HapticServo, LimitsStiffnessAndForceToTheDevices)
+{
+  this->Servo->SetStiffness(5000.0);
+  EXPECT_EQ(this->Servo->GetEffectiveStiffness(), 1000.0);
+  EXPECT_EQ(this->Servo->GetEffectiveMaximumForce(), 3.3);
+  ASSERT_EQ(this->Servo->Step(1000), 1000);
+  EXPECT_NEAR(this->DeviceForce(), 2.0, 4e-3) << "1000 N/m, 2 mm deep";
+  this->Servo->SetMaximumForce(0.5);
+  ASSERT_EQ(this->Servo->Step(1), 1);
+  EXPECT_NEAR(this->DeviceForce(), 0.5, 1e-12);
+}
+
+TEST_F(HapticServo, RefusesSettingsOutOfRangeAndKeepsTheOldOnes)
+{
+  Listener errors(this->Servo, vtkCommand::ErrorEvent);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  this->Servo->SetStiffness(-1.0);
+  this->Servo->SetStiffness(nan);
+  this->Servo->SetMaximumForce(-1.0);
+  this->Servo->SetMaximumForce(nan);
+  EXPECT_FALSE(this->Servo->SetWorkspaceTransform(nullptr));
+  vtkNew<vtkMatrix4x4> mirror;
+  mirror->SetElement(0, 0, -1.0);
+  EXPECT_FALSE(this->Servo->SetWorkspaceTransform(mirror));
+  EXPECT_EQ(this->Servo->PublishGodObject(nullptr), 0u);
+  EXPECT_EQ(errors.Count, 7);
+  EXPECT_EQ(this->Servo->GetStiffness(), 500.0);
+  ASSERT_EQ(this->Servo->Step(1000), 1000);
+  EXPECT_NEAR(this->DeviceForce(), 1.0, 2e-3);
+}
+
+TEST_F(HapticServo, MovesTheHandThroughTheWorkspaceTransform)
+{
+  vtkNew<vtkMatrix4x4> matrix;
+  const double elements[16] = { 1000, 0, 0, 5, 0, 1000, 0, 6, 0, 0, 1000, 0, 0, 0, 0, 1 };
+  matrix->DeepCopy(elements);
+  ASSERT_TRUE(this->Servo->SetWorkspaceTransform(matrix));
+  this->Servo->PublishGodObject(MakeGodObject(MakePlane(0.0, 100.0))); // millimetres
+  ASSERT_EQ(this->Servo->Step(1000), 1000);
+  double device[3];
+  double hip[3];
+  this->Servo->GetDevicePosition(device);
+  this->Servo->GetHapticInterfacePoint(hip);
+  EXPECT_NEAR(hip[0], 1000.0 * device[0] + 5.0, 1e-9);
+  EXPECT_NEAR(hip[1], 1000.0 * device[1] + 6.0, 1e-9);
+  EXPECT_NEAR(hip[2], -2.0, 1e-9);
+  EXPECT_NEAR(this->DeviceForce(), 1.0, 2e-3) << "the hand feels metres, whatever the world's unit";
+  vtkNew<vtkMatrix4x4> back;
+  this->Servo->GetWorkspaceTransform(back);
+  EXPECT_NEAR(back->GetElement(1, 3), 6.0, 1e-12);
+  EXPECT_NEAR(back->GetElement(2, 2), 1000.0, 1e-9);
+}
+
+TEST_F(HapticServo, DoesNotStartWithoutAnOpenDevice)
+{
+  vtkNew<vtkHapticServo> servo;
+  Listener errors(servo, vtkCommand::ErrorEvent);
+  EXPECT_FALSE(servo->Start());
+  EXPECT_NE(std::string(servo->GetErrorMessage()).find("SetDevice"), std::string::npos);
+  this->Device->Close();
+  servo->SetDevice(this->Device);
+  EXPECT_FALSE(servo->Start());
+  EXPECT_NE(std::string(servo->GetErrorMessage()).find("Open"), std::string::npos);
+  EXPECT_EQ(servo->Step(1), 0);
+  EXPECT_EQ(errors.Count, 3);
+  EXPECT_EQ(servo->GetState(), vtkHapticServo::Stopped);
+}
+
+TEST_F(HapticServo, DoesNotStepWhileItRuns)
+{
+  Listener errors(this->Servo, vtkCommand::ErrorEvent);
+  ASSERT_TRUE(this->Servo->Start());
+  EXPECT_EQ(this->Servo->Step(1), 0);
+  EXPECT_EQ(errors.Count, 1);
+  EXPECT_TRUE(this->Servo->IsRunning());
+}
+
+TEST_F(HapticServo, AsksForNoForceWhenItsDeviceIsReplacedOrItIsDestroyed)
+{
+  {
+    vtkNew<vtkHapticServo> servo;
+    servo->SetDevice(this->Device);
+    servo->PublishGodObject(MakeGodObject(MakePlane()));
+    ASSERT_EQ(servo->Step(1000), 1000);
+    EXPECT_GT(this->DeviceForce(), 0.5);
+  }
+  EXPECT_EQ(this->DeviceForce(), 0.0);
+  ASSERT_EQ(this->Servo->Step(1000), 1000);
+  EXPECT_GT(this->DeviceForce(), 0.5);
+  this->Servo->SetDevice(nullptr);
+  EXPECT_EQ(this->DeviceForce(), 0.0);
+}
+
+TEST_F(HapticServo, TellsByUpdateWhetherThereIsAnythingNew)
+{
+  EXPECT_FALSE(this->Servo->Update());
+  ASSERT_TRUE(this->Servo->Start());
+  while (this->Servo->GetNumberOfTicks() == 0)
+  {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_TRUE(this->Servo->Update());
+  this->Servo->Stop();
+  EXPECT_FALSE(this->Servo->Update());
+}
+
+TEST_F(HapticServo, PrintsWhatItDoes)
+{
+  this->Servo->Step(10);
+  std::ostringstream text;
+  this->Servo->Print(text);
+  for (const char* expected : { "Rate: 1000 Hz", "State: Stepping", "NumberOfTicks: 10\n" })
+  {
+    EXPECT_NE(text.str().find(expected), std::string::npos) << expected;
+  }
+}
+}

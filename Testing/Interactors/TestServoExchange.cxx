@@ -1,0 +1,100 @@
+#include "GodObjectExchange.h"
+#include "ServoTestTools.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <thread>
+
+using haptics::GodObjectExchange;
+
+namespace
+{
+TEST(GodObjectExchange, StartsWithFreeSpaceAsGenerationZero)
+{
+  GodObjectExchange exchange;
+  EXPECT_EQ(exchange.Take().Generation, 0u);
+  EXPECT_TRUE(exchange.Take().Object->Surfaces().empty());
+}
+
+TEST(GodObjectExchange, GivesTheNewestAndDropsTheOnesNeverTaken)
+{
+  GodObjectExchange exchange;
+  const std::weak_ptr<const haptics::TriangleSurface> dropped = [&]
+  {
+    auto plane = MakePlane();
+    exchange.Publish(MakeGodObject(plane));
+    return plane;
+  }();
+  const auto newest = MakePlane();
+  exchange.Publish(MakeGodObject(newest));
+  EXPECT_TRUE(dropped.expired());
+  EXPECT_EQ(exchange.Take().Generation, 2u);
+  EXPECT_EQ(exchange.Take().Object->Surfaces().front(), newest);
+}
+
+TEST(GodObjectExchange, KeepsARetiredSurfaceUntilItIsCollected)
+{
+  GodObjectExchange exchange;
+  const std::weak_ptr<const haptics::TriangleSurface> retired = [&]
+  {
+    auto plane = MakePlane();
+    exchange.Publish(MakeGodObject(plane));
+    return plane;
+  }();
+  exchange.Take();
+  exchange.Publish(MakeGodObject(MakePlane()));
+  exchange.Take();
+  EXPECT_FALSE(retired.expired()) << "the servo thread must not delete";
+  exchange.Collect();
+  EXPECT_TRUE(retired.expired());
+}
+
+TEST(GodObjectExchange, DeletesAllThatItHoldsAtItsEnd)
+{
+  std::vector<std::weak_ptr<const haptics::TriangleSurface>> published;
+  {
+    GodObjectExchange exchange;
+    for (int i = 0; i < 3; ++i) // one retired, one current, one incoming
+    {
+      const auto plane = MakePlane();
+      published.push_back(plane);
+      exchange.Publish(MakeGodObject(plane));
+      if (i < 2)
+      {
+        exchange.Take();
+      }
+    }
+  }
+  for (const auto& surface : published)
+  {
+    EXPECT_TRUE(surface.expired());
+  }
+}
+
+TEST(GodObjectExchange, NeverGoesBackAndReachesTheLastBetweenTwoThreads)
+{
+  constexpr std::uint64_t last = 5000;
+  GodObjectExchange exchange;
+  const auto plane = MakePlane();
+  std::atomic<std::uint64_t> older{ 0 };
+  std::thread servo(
+    [&]
+    {
+      std::uint64_t seen = 0;
+      while (seen < last)
+      {
+        haptics::NumberedGodObject& god = exchange.Take();
+        god.Object->Update({ 0.0, 0.0, -0.001 });
+        older += god.Generation < seen;
+        seen = god.Generation;
+      }
+    });
+  for (std::uint64_t i = 0; i < last; ++i)
+  {
+    exchange.Publish(MakeGodObject(plane));
+  }
+  servo.join();
+  EXPECT_EQ(older, 0u);
+}
+}
