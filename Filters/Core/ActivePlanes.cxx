@@ -86,62 +86,79 @@ bool ActivePlanes::Solve(const Vector& wish, bool raise, const Vector& from, Vec
     return true;
   };
 
+  // Every equality solution of up to three planes is a candidate. One that keeps all planes and
+  // pulls on none (no multiplier is negative) is the nearest, as the problem is convex; where
+  // rounding leaves no such candidate, the nearest of those that keep all planes is taken.
   double best = HUGE_VAL;
   this->NumberOfSupports = 0;
-  const auto consider = [&](const double y[3], std::array<int, 3> supports, int size)
+  const auto isNearest = [&](const std::array<int, 3>& supports, int size)
   {
+    double y[3] = { wish.x, wish.y, wish.z };
+    double multipliers[3];
+    const Plane<double>* const chosen[3] = { &planes[supports[0]], &planes[supports[1]],
+      &planes[supports[2]] };
+    if (!ProjectOnto(chosen, size, Parallel, y, multipliers))
+    {
+      return false;
+    }
+    if (size > 1)
+    {
+      // The wish may be long and the planes nearly parallel: what rounding left is taken out, so
+      // that the point keeps its planes to within a small part of the clearance.
+      double corrections[3];
+      ProjectOnto(chosen, size, Parallel, y, corrections);
+      for (int i = 0; i < size; ++i)
+      {
+        multipliers[i] += corrections[i];
+      }
+    }
     if (!keepsAll(y))
     {
-      return;
+      return false;
     }
+    const bool pushes =
+      std::none_of(multipliers, multipliers + size, [](double m) { return m < 0.0; });
     const Vector step(y[0], y[1], y[2]);
     const double distance = SquaredLength(step - wish);
-    if (distance < best)
+    if (pushes || distance < best)
     {
       best = distance;
       nearest = step;
       this->Supports = supports;
       this->NumberOfSupports = size;
     }
+    return pushes;
   };
-  const auto start = [&wish](double y[3])
+  if (isNearest({}, 0))
   {
-    y[0] = wish.x;
-    y[1] = wish.y;
-    y[2] = wish.z;
-  };
-
-  double y[3];
-  start(y);
-  consider(y, {}, 0);
-  // Fewer planes come nearer, so a size that has a solution ends the search.
-  for (int i = 0; i < this->Count && best > 0.0; ++i)
-  {
-    start(y);
-    ProjectOnto(planes[i], y);
-    consider(y, { i }, 1);
+    return true;
   }
-  for (int i = 0; i < this->Count && best == HUGE_VAL; ++i)
+  for (int i = 0; i < this->Count; ++i)
+  {
+    if (isNearest({ i }, 1))
+    {
+      return true;
+    }
+  }
+  for (int i = 0; i < this->Count; ++i)
   {
     for (int j = i + 1; j < this->Count; ++j)
     {
-      start(y);
-      if (ProjectOnto(planes[i], planes[j], Parallel, y))
+      if (isNearest({ i, j }, 2))
       {
-        consider(y, { i, j }, 2);
+        return true;
       }
     }
   }
-  for (int i = 0; i < this->Count && best == HUGE_VAL; ++i)
+  for (int i = 0; i < this->Count; ++i)
   {
     for (int j = i + 1; j < this->Count; ++j)
     {
       for (int k = j + 1; k < this->Count; ++k)
       {
-        start(y);
-        if (ProjectOnto(planes[i], planes[j], planes[k], Parallel, y))
+        if (isNearest({ i, j, k }, 3))
         {
-          consider(y, { i, j, k }, 3);
+          return true;
         }
       }
     }

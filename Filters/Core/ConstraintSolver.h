@@ -22,70 +22,68 @@ inline Real Dot(const Real a[3], const Real b[3])
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Moves y, which lies on the planes of an orthonormal basis already, along `direction` (unit, in
-/// their intersection) onto one plane more. `rate` is normal·direction.
+/// Moves y to the point nearest to it on all of `count` planes (0 to 3), and gives the multipliers:
+/// the move is the sum of multiplier times normal, so a negative one means that its plane pulls.
+/// False, with y undefined, when planes are parallel: `parallel` is the smallest squared sine, of
+/// the second plane with the first and of the third with the line of the two.
 template <class Real>
-inline void MoveOnto(const Plane<Real>& plane, const Real direction[3], const Real& rate, Real y[3])
+inline bool ProjectOnto(
+  const Plane<Real>* const planes[3], int count, const Real& parallel, Real y[3], Real multipliers[3])
 {
-  const Real step = (plane.Offset - Dot(plane.Normal, y)) / rate;
+  if (count == 0)
+  {
+    return true;
+  }
+  const Real* const a = planes[0]->Normal;
+  multipliers[0] = planes[0]->Offset - Dot(a, y);
   for (int k = 0; k < 3; ++k)
   {
-    y[k] = y[k] + step * direction[k];
+    y[k] = y[k] + multipliers[0] * a[k];
   }
-}
+  if (count == 1)
+  {
+    return true;
+  }
 
-/// The nearest point to y on one plane. Six multiplications.
-template <class Real>
-inline void ProjectOnto(const Plane<Real>& a, Real y[3])
-{
-  const Real step = a.Offset - Dot(a.Normal, y);
-  for (int k = 0; k < 3; ++k)
-  {
-    y[k] = y[k] + step * a.Normal[k];
-  }
-}
-
-/// The nearest point to y on the line of two planes; false when they are parallel to within
-/// `parallel`, the smallest squared sine of their angle.
-template <class Real>
-inline bool ProjectOnto(const Plane<Real>& a, const Plane<Real>& b, const Real& parallel, Real y[3])
-{
-  const Real cosine = Dot(a.Normal, b.Normal);
-  Real direction[3]; // of b's normal, in a's plane
-  for (int k = 0; k < 3; ++k)
-  {
-    direction[k] = b.Normal[k] - cosine * a.Normal[k];
-  }
-  // normal·direction is |direction|², so the direction needs no root.
-  const Real rate = Dot(direction, direction);
-  if (!(rate > parallel))
+  // Along the part of b that lies in a's plane; b's rate along it is its squared length.
+  const Real* const b = planes[1]->Normal;
+  const Real cosine = Dot(a, b);
+  const Real inA[3] = { b[0] - cosine * a[0], b[1] - cosine * a[1], b[2] - cosine * a[2] };
+  const Real squaredSine = Dot(inA, inA);
+  if (!(squaredSine > parallel))
   {
     return false;
   }
-  ProjectOnto(a, y);
-  MoveOnto(b, direction, rate, y);
-  return true;
-}
+  multipliers[1] = (planes[1]->Offset - Dot(b, y)) / squaredSine;
+  multipliers[0] = multipliers[0] - multipliers[1] * cosine;
+  for (int k = 0; k < 3; ++k)
+  {
+    y[k] = y[k] + multipliers[1] * inA[k];
+  }
+  if (count == 2)
+  {
+    return true;
+  }
 
-/// The common point of three planes; false when they have none or it is not well defined.
-template <class Real>
-inline bool ProjectOnto(const Plane<Real>& a, const Plane<Real>& b, const Plane<Real>& c,
-  const Real& parallel, Real y[3])
-{
-  if (!ProjectOnto(a, b, parallel, y))
+  // Along the line of a and b.
+  const Real* const c = planes[2]->Normal;
+  const Real line[3] = { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+    a[0] * b[1] - a[1] * b[0] };
+  const Real rate = Dot(line, c);
+  if (!(rate * rate > parallel * squaredSine))
   {
     return false;
   }
-  const Real* const m = a.Normal;
-  const Real* const n = b.Normal;
-  const Real direction[3] = { m[1] * n[2] - m[2] * n[1], m[2] * n[0] - m[0] * n[2],
-    m[0] * n[1] - m[1] * n[0] };
-  const Real rate = Dot(direction, c.Normal);
-  if (!(rate * rate > parallel * Dot(direction, direction)))
+  const Real step = (planes[2]->Offset - Dot(c, y)) / rate;
+  for (int k = 0; k < 3; ++k)
   {
-    return false;
+    y[k] = y[k] + step * line[k];
   }
-  MoveOnto(c, direction, rate, y);
+  // step·line = m c - (what a and b have to give back): split along inA, then along a.
+  multipliers[2] = step * squaredSine / rate;
+  const Real back = multipliers[2] * Dot(c, inA) / squaredSine;
+  multipliers[1] = multipliers[1] - back;
+  multipliers[0] = multipliers[0] - multipliers[2] * Dot(c, a) + back * cosine;
   return true;
 }
 }

@@ -20,6 +20,9 @@ constexpr int LargestNumberOfHalvings = 6;
 constexpr std::int64_t LargestNumberOfTriangles = 1 << 15;
 /// Farther out, squares would leave the range of float64.
 constexpr double FarthestHip = 1e100;
+
+/// Each cast makes at most one motion.
+constexpr int LargestWay = LargestNumberOfPasses * LargestNumberOfCasts + 1;
 }
 
 class GodObject::Implementation
@@ -55,6 +58,8 @@ public:
     this->Budget.Triangles = LargestNumberOfTriangles;
     this->IsOverloaded = false;
     this->Active.Clear();
+    this->Way[0] = ToVec3(this->Position);
+    this->WaySize = 1;
     for (int pass = 0; pass < LargestNumberOfPasses; ++pass)
     {
       const Vector before = this->Position;
@@ -77,6 +82,8 @@ public:
   bool IsOverloaded = false;
   ActivePlanes Active;
   Contact Result;
+  std::array<Vec3, LargestWay> Way;
+  int WaySize = 0;
 
 private:
   /// Moves to the nearest point to the HIP that the facets met on the way allow.
@@ -147,6 +154,7 @@ private:
           set.Move();
         }
         this->Position = to;
+        this->Way[this->WaySize++] = ToVec3(to);
         return halving == 0;
       }
       step *= 0.5;
@@ -245,6 +253,17 @@ const Contact& GodObject::Update(const Vec3& hip) noexcept
 const Contact& GodObject::Current() const noexcept
 {
   return this->Internal->Result;
+}
+
+const Vec3* GodObject::Way(int& numberOfCorners) const noexcept
+{
+  numberOfCorners = this->Internal->WaySize;
+  return this->Internal->Way.data();
+}
+
+Vec3 GodObject::WayOrigin() const noexcept
+{
+  return ToVec3(this->Internal->Origin);
 }
 
 const std::vector<std::shared_ptr<const TriangleSurface>>& GodObject::Surfaces() const noexcept

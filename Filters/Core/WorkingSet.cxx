@@ -264,6 +264,7 @@ FacetHit WorkingSet::Scan(const Vector& to, const ActivePlanes& active)
   this->Measure(to, this->TargetDistance);
   const Vector way = to - this->Position;
   FacetHit hit;
+  double deepest = HUGE_VAL;
   for (std::int32_t i = 0; i < this->Count; ++i)
   {
     const double here = this->Distance[i];
@@ -275,13 +276,18 @@ FacetHit WorkingSet::Scan(const Vector& to, const ActivePlanes& active)
       continue;
     }
     const double approach = here - there;
-    const double stop = std::max(0.0, (here - clearance) / approach);
-    if (stop >= hit.Fraction)
+    // Within two clearances is near enough: steps of rounding's size are not worth their check.
+    const double stop = here <= 2.0 * clearance ? 0.0 : (here - clearance) / approach;
+    const FacetId id{ this->Index, this->Triangles[i] };
+    // Of facets met at once the one most pressed against, so that the order in which an engine
+    // finds them does not matter.
+    if (stop > hit.Fraction ||
+      (stop == hit.Fraction &&
+        (there > deepest || (there == deepest && id.Triangle > hit.Plane.Facet.Triangle))))
     {
       continue;
     }
     const double cross = std::clamp(here / approach, 0.0, 1.0);
-    const FacetId id{ this->Index, this->Triangles[i] };
     const bool isActive = active.Has(id);
     if (isActive && there > 0.0)
     {
@@ -295,6 +301,7 @@ FacetHit WorkingSet::Scan(const Vector& to, const ActivePlanes& active)
       (there <= 0.0 && facet.Covers(this->Position + cross * way, growth));
     if (meets)
     {
+      deepest = there;
       hit.Fraction = stop;
       hit.Plane.Facet = id;
       hit.Plane.Normal = { this->NormalX[i], this->NormalY[i], this->NormalZ[i] };

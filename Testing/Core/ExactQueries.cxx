@@ -1,0 +1,175 @@
+#include "ExactQueries.h"
+
+#include "AnalyticSurfaces.h"
+
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/squared_distance_3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace haptics::testing
+{
+namespace
+{
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_3;
+
+Point ToPoint(const Vec3& v)
+{
+  return { v[0], v[1], v[2] };
+}
+
+int Side(const Point& a, const Point& b, const Point& c, const Point& d)
+{
+  return static_cast<int>(CGAL::orientation(a, b, c, d));
+}
+
+/// Signs of the line p-q against the three edges: 1 inside, 0 on an edge, -1 outside.
+int LineInTriangle(
+  const Point& p, const Point& q, const Point& a, const Point& b, const Point& c)
+{
+  const std::array<int, 3> signs{ Side(p, q, a, b), Side(p, q, b, c), Side(p, q, c, a) };
+  const auto [low, high] = std::minmax_element(signs.begin(), signs.end());
+  if (*low < 0 && *high > 0)
+  {
+    return -1;
+  }
+  return std::count(signs.begin(), signs.end(), 0) ? 0 : 1;
+}
+}
+
+ExactQueries::ExactQueries(std::shared_ptr<const TriangleSurface> surface)
+  : Surface(std::move(surface))
+{
+  for (const Triangle& t : this->Surface->Triangles())
+  {
+    Bounds box{ this->Surface->Points()[t[0]], this->Surface->Points()[t[0]] };
+    for (const std::int32_t corner : t)
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        const double x = this->Surface->Points()[corner][k];
+        box.Low[k] = std::min(box.Low[k], x);
+        box.High[k] = std::max(box.High[k], x);
+      }
+    }
+    this->Boxes.push_back(box);
+  }
+}
+
+template <class Visitor>
+bool ExactQueries::VisitBoxes(const Bounds& box, const Visitor& visit) const
+{
+  for (std::size_t i = 0; i < this->Boxes.size(); ++i)
+  {
+    const Bounds& b = this->Boxes[i];
+    const bool apart = b.High[0] < box.Low[0] || b.Low[0] > box.High[0] ||
+      b.High[1] < box.Low[1] || b.Low[1] > box.High[1] || b.High[2] < box.Low[2] ||
+      b.Low[2] > box.High[2];
+    if (!apart)
+    {
+      const auto& [a, b1, c] = this->Surface->Triangles()[i];
+      const auto& points = this->Surface->Points();
+      if (visit(ToPoint(points[a]), ToPoint(points[b1]), ToPoint(points[c])))
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+bool ExactQueries::Crosses(const Vec3& from, const Vec3& to) const
+{
+  const Point p = ToPoint(from);
+  const Point q = ToPoint(to);
+  Bounds box;
+  for (int k = 0; k < 3; ++k)
+  {
+    box.Low[k] = std::min(from[k], to[k]);
+    box.High[k] = std::max(from[k], to[k]);
+  }
+  const bool both = this->Surface->TouchedSide() == haptics::Side::Both;
+  return this->VisitBoxes(box,
+    [&](const Point& a, const Point& b, const Point& c)
+    {
+      const int before = Side(a, b, c, p);
+      const int after = Side(a, b, c, q);
+      const bool fromFront = before >= 0 && after <= 0 && (before != 0 || after != 0);
+      const bool fromBack = both && before < 0 && after >= 0;
+      return (fromFront || fromBack) && LineInTriangle(p, q, a, b, c) >= 0;
+    });
+}
+
+bool ExactQueries::IsInside(const Vec3& point) const
+{
+  const Point p = ToPoint(point);
+  // A ray through an edge or a corner says nothing: take another.
+  for (int attempt = 0; attempt < 16; ++attempt)
+  {
+    const double reach = 4.0 * this->Surface->Radius() + 2.0 * Length(point);
+    const Vec3 end = point + reach * Unit({ 0.577 + 0.013 * attempt, 0.313 - 0.17 * attempt, 0.7547 });
+    const Point q = ToPoint(end);
+    Bounds box;
+    for (int k = 0; k < 3; ++k)
+    {
+      box.Low[k] = std::min(point[k], end[k]);
+      box.High[k] = std::max(point[k], end[k]);
+    }
+    int crossings = 0;
+    const bool isDegenerate = this->VisitBoxes(box,
+      [&](const Point& a, const Point& b, const Point& c)
+      {
+        const int before = Side(a, b, c, p);
+        const int after = Side(a, b, c, q);
+        if (before * after > 0 || (before == 0 && after == 0))
+        {
+          return false;
+        }
+        const int where = LineInTriangle(p, q, a, b, c);
+        if (where < 0)
+        {
+          return false;
+        }
+        ++crossings;
+        return where == 0 || before == 0 || after == 0;
+      });
+    if (!isDegenerate)
+    {
+      return crossings % 2 == 1;
+    }
+  }
+  return false; // the point itself lies on the surface
+}
+
+double ExactQueries::Distance(const Vec3& point) const
+{
+  using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
+  double best = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < this->Boxes.size(); ++i)
+  {
+    Vec3 outside;
+    for (int k = 0; k < 3; ++k)
+    {
+      outside[k] =
+        std::max({ this->Boxes[i].Low[k] - point[k], point[k] - this->Boxes[i].High[k], 0.0 });
+    }
+    if (Length(outside) > best)
+    {
+      continue;
+    }
+    const auto& [a, b, c] = this->Surface->Triangles()[i];
+    const auto& points = this->Surface->Points();
+    const auto corner = [&points](int index)
+    { return Exact::Point_3(points[index][0], points[index][1], points[index][2]); };
+    const Exact::Triangle_3 triangle(corner(a), corner(b), corner(c));
+    const double squared = CGAL::to_double(
+      CGAL::squared_distance(Exact::Point_3(point[0], point[1], point[2]), triangle));
+    best = std::min(best, std::sqrt(squared));
+  }
+  return best;
+}
+}

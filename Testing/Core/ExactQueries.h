@@ -1,0 +1,40 @@
+#ifndef ExactQueries_h
+#define ExactQueries_h
+
+#include "TriangleSurface.h"
+
+namespace haptics::testing
+{
+/// @brief Exact answers about a surface that share no code with the contact update: every box is
+/// looked at, and CGAL's rational arithmetic decides.
+///
+/// Points are in the surface's local frame.
+class ExactQueries
+{
+public:
+  explicit ExactQueries(std::shared_ptr<const TriangleSurface> surface);
+
+  /// Whether a straight way from `from` to `to` meets a triangle from a side that can be touched.
+  /// As for the god-object, ending on a triangle counts and starting on it does not.
+  bool Crosses(const Vec3& from, const Vec3& to) const;
+
+  /// Whether a point lies inside a closed surface: the parity of crossings of a ray.
+  bool IsInside(const Vec3& point) const;
+
+  /// Distance to the nearest triangle; the error is rounding's.
+  double Distance(const Vec3& point) const;
+
+private:
+  struct Bounds
+  {
+    Vec3 Low, High;
+  };
+  template <class Visitor>
+  bool VisitBoxes(const Bounds& box, const Visitor& visit) const;
+
+  std::shared_ptr<const TriangleSurface> Surface;
+  std::vector<Bounds> Boxes;
+};
+}
+
+#endif

@@ -1,0 +1,390 @@
+// Moves a god-object along random ways over surfaces that break methods, and checks every piece of
+// every way with exact arithmetic. Prints a table; exits with 1 when anything leaked, moved away
+// from the HIP, or stuck more often than allowed. `--help` tells how to run it for long.
+#include "AnalyticSurfaces.h"
+#include "ExactQueries.h"
+#include "GodObject.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <functional>
+#include <random>
+#include <string>
+
+using namespace haptics;
+using namespace haptics::testing;
+
+namespace
+{
+constexpr double Pi = 3.14159265358979323846;
+
+struct Scene
+{
+  const char* Name;
+  std::function<TriangleMesh()> Make;
+  Side TouchedSide;
+  double Reach; ///< the ways go as far as this from the origin [m]
+};
+
+TriangleMesh Nested()
+{
+  TriangleMesh sheets;
+  for (int i = 0; i < 8; ++i)
+  {
+    sheets = Joined(sheets, Moved(Square(0.03, 2), { 0, 0, -0.0002 * i }));
+  }
+  return sheets;
+}
+
+TriangleMesh SharedEdgeBoxes()
+{
+  // Two boxes with one edge in common: four triangles on it.
+  TriangleMesh mesh = Box(0.01, 0.01, 0.01, 2);
+  const TriangleMesh other = Moved(Box(0.01, 0.01, 0.01, 2), { 0.02, 0.02, 0 });
+  std::vector<std::int32_t> renamed;
+  for (const Vec3& p : other.Points)
+  {
+    const auto same = std::find_if(mesh.Points.begin(), mesh.Points.end(),
+      [&p](const Vec3& q) { return Length(p - q) < 1e-9; });
+    renamed.push_back(static_cast<std::int32_t>(same - mesh.Points.begin()));
+    if (same == mesh.Points.end())
+    {
+      mesh.Points.push_back(p);
+    }
+  }
+  for (const auto& [a, b, c] : other.Triangles)
+  {
+    mesh.Triangles.push_back({ renamed[a], renamed[b], renamed[c] });
+  }
+  return mesh;
+}
+
+const std::vector<Scene>& AllScenes()
+{
+  static const std::vector<Scene> scenes = {
+    { "sphere", [] { return Icosphere(4, 0.03); }, Side::Front, 0.03 },
+    { "inside of a sphere", [] { return InsideOut(Icosphere(4, 0.03)); }, Side::Front, 0.03 },
+    { "box, along its lines", [] { return Box(0.03, 0.03, 0.03, 8); }, Side::Front, 0.03 },
+    { "plate of 1 mm", [] { return Box(0.03, 0.03, 0.0005, 8); }, Side::Front, 0.03 },
+    { "plate of 1 um", [] { return Box(0.03, 0.03, 0.5e-6, 4); }, Side::Front, 0.03 },
+    { "star", [] { return Star(3, 0.04, 0.4, 3); }, Side::Front, 0.04 },
+    { "star from both sides", [] { return Star(3, 0.04, 0.4, 3); }, Side::Both, 0.04 },
+    { "fine noise", [] { return Star(5, 0.03, 0.02, 4); }, Side::Front, 0.03 },
+    { "torus", [] { return Torus(0.025, 0.008, 64, 32); }, Side::Front, 0.033 },
+    { "torus, far away", [] { return Moved(Torus(0.025, 0.008, 64, 32), { 5e5, 4e6, 100 }); },
+      Side::Front, 0.033 },
+    { "groove of 5 degrees", [] { return Groove(5.0, 0.03); }, Side::Front, 0.03 },
+    { "groove of 0.2 degrees", [] { return Groove(0.2, 0.03); }, Side::Both, 0.03 },
+    { "nested sheets", Nested, Side::Front, 0.03 },
+    { "nested sheets from both sides", Nested, Side::Both, 0.03 },
+    { "boxes sharing an edge", SharedEdgeBoxes, Side::Both, 0.03 },
+    { "soup", [] { return Scaled(Soup(400, 0.4, 7), 0.03); }, Side::Both, 0.04 },
+    { "slivers", [] { return Scaled(Icosphere(3, 1.0), 0.03); }, Side::Front, 0.03 },
+  };
+  return scenes;
+}
+
+/// Ways of a HIP, in device-like units: metres, one position a tick of 1 ms.
+class Path
+{
+public:
+  enum Kind
+  {
+    Smooth,
+    Jitter,
+    Jump,
+    AlongLines,
+    Plunge,
+    NumberOfKinds
+  };
+
+  Path(Kind kind, double reach, unsigned seed)
+    : Way(kind)
+    , Reach(reach)
+    , Random(seed)
+  {
+    this->Direction = Unit({ this->Normal(), this->Normal(), this->Normal() });
+  }
+
+  Vec3 Next()
+  {
+    const double step = 1e-3;
+    ++this->Tick;
+    switch (this->Way)
+    {
+      case Jump:
+        return this->Anywhere();
+      case Jitter:
+        if (this->Tick % 50 == 1)
+        {
+          this->Base = this->Anywhere();
+        }
+        return this->Base + 0.002 * this->Reach * Vec3{ this->Normal(), this->Normal(), this->Normal() };
+      case AlongLines:
+        return this->NextAlongLines();
+      case Plunge:
+        // Straight through everything at 5 m/s, from a new place each time.
+        if (this->Tick % 40 == 1)
+        {
+          this->Base = 2.0 * this->Reach * Unit(this->Anywhere());
+          this->Direction = Unit(this->Anywhere() - this->Base);
+        }
+        this->Base = this->Base + 5.0 * step * this->Direction;
+        return this->Base;
+      default:
+        break;
+    }
+    // A wandering direction at a breathing depth: strokes with presses of some millimetres,
+    // rounded as encoders do.
+    this->Spin = 0.995 * this->Spin + 0.25 * Vec3{ this->Normal(), this->Normal(), this->Normal() };
+    this->Direction = Unit(this->Direction + step * Cross(this->Spin, this->Direction));
+    const double depth = -0.1 + 0.25 * (1.0 - std::cos(2.0 * Pi * 0.7 * step * this->Tick));
+    const Vec3 hip = (this->Reach * (1.0 - depth)) * this->Direction;
+    const double encoder = 5.5e-5;
+    return { encoder * std::floor(hip[0] / encoder), encoder * std::floor(hip[1] / encoder),
+      encoder * std::floor(hip[2] / encoder) };
+  }
+
+private:
+  double Normal() { return std::normal_distribution<double>()(this->Random); }
+  Vec3 Anywhere()
+  {
+    std::uniform_real_distribution<double> place(-1.2 * this->Reach, 1.2 * this->Reach);
+    return { place(this->Random), place(this->Random), place(this->Random) };
+  }
+  /// Sweeps in the planes of a mesh of 8 cells across, and along its diagonals.
+  Vec3 NextAlongLines()
+  {
+    const double lines[] = { 0.0, 0.25, -0.25, 0.5, 1.0 };
+    const double a = this->Reach * std::sin(0.0013 * this->Tick);
+    const double z = this->Reach * (1.0 + 0.1 - 0.25 * (0.5 - 0.5 * std::cos(0.0051 * this->Tick)));
+    const double y = this->Reach * lines[(this->Tick / 3000) % 5];
+    switch ((this->Tick / 1000) % 3)
+    {
+      case 0:
+        return { a, y, z };
+      case 1:
+        return { y, a, z };
+      default:
+        return { a, a, z };
+    }
+  }
+
+  Kind Way;
+  double Reach;
+  std::mt19937 Random;
+  long Tick = 0;
+  Vec3 Direction{};
+  Vec3 Spin{};
+  Vec3 Base{};
+};
+
+const char* const PathNames[] = { "smooth", "jitter", "jump", "along lines", "plunge" };
+
+struct Tally
+{
+  long Ticks = 0, Contacts = 0, Leaks = 0, Away = 0, Stalls = 0, DoubleStalls = 0, Overloads = 0;
+};
+
+/// Takes from `pull` what the normals span, one after another (Gram-Schmidt).
+/// `lastPushes`: the last normal's share is against the pull.
+double Remainder(const Vec3& pull, const std::vector<Vec3>& normals, bool& lastPushes)
+{
+  std::vector<Vec3> basis;
+  Vec3 rest = pull;
+  for (const Vec3& n : normals)
+  {
+    Vec3 direction = n;
+    for (const Vec3& b : basis)
+    {
+      direction = direction - Dot(direction, b) * b;
+    }
+    direction = Unit(direction);
+    const double share = Dot(rest, direction);
+    lastPushes = share <= 0.0;
+    rest = rest - share * direction;
+    basis.push_back(direction);
+  }
+  return Length(rest);
+}
+
+/// How much of the pull from the god-object to the HIP its constraints leave unanswered, 0 to 1.
+/// The multiplier of the last normal has the sign of what Gram-Schmidt leaves along it, so the
+/// pull is answered when that holds with each normal put last.
+double UnansweredPull(const Contact& contact)
+{
+  const Vec3 pull = -1.0 * contact.Displacement;
+  double best = Length(pull);
+  for (int subset = 1; subset < 1 << contact.NumberOfConstraints; ++subset)
+  {
+    std::vector<Vec3> normals;
+    for (int i = 0; i < contact.NumberOfConstraints; ++i)
+    {
+      if (subset & (1 << i))
+      {
+        normals.push_back(contact.Constraints[i].Normal);
+      }
+    }
+    double worst = 0.0;
+    for (std::size_t last = 0; last < normals.size(); ++last)
+    {
+      std::rotate(normals.begin(), normals.begin() + 1, normals.end());
+      bool pushes = false;
+      const double remainder = Remainder(pull, normals, pushes);
+      worst = std::max(worst, pushes ? remainder : Length(pull));
+    }
+    best = std::min(best, worst);
+  }
+  return best / contact.Penetration;
+}
+
+void Run(const Scene& scene, Path::Kind kind, long ticks, unsigned seed, EngineKind engine,
+  Tally& tally)
+{
+  const auto surface = MakeSurface(scene.Make(), scene.TouchedSide, engine);
+  const ExactQueries exact(surface);
+  GodObject god({ surface });
+  Path path(kind, scene.Reach, seed);
+  const Vec3& origin = surface->Origin();
+  const double radius = surface->Radius();
+  Vec3 before{};
+  bool stalledBefore = false;
+  for (long tick = 0; tick < ticks; ++tick)
+  {
+    const Vec3 hip = origin + path.Next();
+    if (tick % 20000 == 0)
+    {
+      god.Place(hip); // a restart, wherever that is: inside is free to leave
+      before = hip - origin;
+      stalledBefore = false;
+    }
+    const Contact& contact = god.Update(hip);
+    int corners = 0;
+    const Vec3* const way = god.Way(corners);
+    for (int i = 0; i + 1 < corners; ++i)
+    {
+      if (exact.Crosses(way[i], way[i + 1]))
+      {
+        ++tally.Leaks;
+        std::printf("LEAK  %s, %s, tick %ld, seed %u\n", scene.Name, PathNames[kind], tick, seed);
+      }
+    }
+    if (way[0] != before)
+    {
+      ++tally.Leaks; // the pieces of the way have to join
+      std::printf("GAP   %s, %s, tick %ld, seed %u\n", scene.Name, PathNames[kind], tick, seed);
+    }
+    const Vec3 now = way[corners - 1];
+    const Vec3 goal = hip - origin;
+    if (Length(now - goal) > Length(before - goal) * (1.0 + 1e-9) + 1e-12 * radius)
+    {
+      ++tally.Away;
+      std::printf("AWAY  %s, %s, tick %ld, seed %u: %g\n", scene.Name, PathNames[kind], tick, seed,
+        Length(now - goal) - Length(before - goal));
+    }
+    ++tally.Ticks;
+    tally.Contacts += contact.Status == UpdateStatus::Touching;
+    tally.Overloads += contact.Status == UpdateStatus::Overloaded;
+    const bool stalled = contact.Status != UpdateStatus::Free && contact.Penetration > 1e-6 * radius &&
+      Length(now - before) < 1e-9 * radius && UnansweredPull(contact) > 1e-3;
+    tally.Stalls += stalled;
+    tally.DoubleStalls += stalled && stalledBefore;
+    if (stalled && std::getenv("SOAK_SHOW_STALLS"))
+    {
+      std::printf("STALL %s, %s, tick %ld, seed %u: constraints %d, unanswered %g\n", scene.Name,
+        PathNames[kind], tick, seed, contact.NumberOfConstraints, UnansweredPull(contact));
+    }
+    stalledBefore = stalled;
+    before = now;
+  }
+}
+
+void PrintHelp(const char* program)
+{
+  std::printf("Usage: %s [--ticks N] [--seed N] [--scene NAME] [--engine bruteforce|embree]\n\n"
+              "  --ticks N    ticks for each scene and kind of way; default 4000. The long form is\n"
+              "               --ticks 130000: more than 10 million ticks.\n"
+              "  --seed N     of the random ways; default 1. A failure prints the seed to repeat.\n"
+              "  --scene NAME only this scene\n"
+              "  --engine E   default: chosen by size\n",
+    program);
+}
+}
+
+int main(int argc, char* argv[])
+{
+  long ticks = 4000;
+  unsigned seed = 1;
+  std::string only;
+  EngineKind engine = EngineKind::Automatic;
+  for (int i = 1; i < argc; ++i)
+  {
+    const std::string option = argv[i];
+    if (option == "--help" || i + 1 == argc)
+    {
+      PrintHelp(argv[0]);
+      return option == "--help" ? 0 : 2;
+    }
+    const char* const value = argv[++i];
+    if (option == "--ticks")
+    {
+      ticks = std::atol(value);
+    }
+    else if (option == "--seed")
+    {
+      seed = static_cast<unsigned>(std::atol(value));
+    }
+    else if (option == "--scene")
+    {
+      only = value;
+    }
+    else if (option == "--engine")
+    {
+      engine = std::strcmp(value, "embree") ? EngineKind::BruteForce : EngineKind::Embree;
+    }
+    else
+    {
+      PrintHelp(argv[0]);
+      return 2;
+    }
+  }
+  std::printf("%-32s %10s %10s %6s %6s %7s %7s %9s   (seed %u)\n", "scene", "ticks", "contacts",
+    "leaks", "away", "stalls", "twice", "overloads", seed);
+  Tally all;
+  for (const Scene& scene : AllScenes())
+  {
+    if (!only.empty() && only != scene.Name)
+    {
+      continue;
+    }
+    Tally tally;
+    for (int kind = 0; kind < Path::NumberOfKinds; ++kind)
+    {
+      Run(scene, static_cast<Path::Kind>(kind), ticks, seed + kind, engine, tally);
+    }
+    const auto print = [](const char* name, const Tally& t)
+    {
+      std::printf("%-32s %10ld %10ld %6ld %6ld %7ld %7ld %9ld\n", name, t.Ticks, t.Contacts, t.Leaks,
+        t.Away, t.Stalls, t.DoubleStalls, t.Overloads);
+      std::fflush(stdout);
+    };
+    print(scene.Name, tally);
+    all.Ticks += tally.Ticks;
+    all.Contacts += tally.Contacts;
+    all.Leaks += tally.Leaks;
+    all.Away += tally.Away;
+    all.Stalls += tally.Stalls;
+    all.DoubleStalls += tally.DoubleStalls;
+    all.Overloads += tally.Overloads;
+    if (&scene == &AllScenes().back())
+    {
+      print("all", all);
+    }
+  }
+  const bool good = all.Leaks == 0 && all.Away == 0 && all.DoubleStalls == 0 &&
+    all.Stalls * 100000 <= std::max(all.Ticks, 100000L) && all.Ticks > 0;
+  return good ? 0 : 1;
+}

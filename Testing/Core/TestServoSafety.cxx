@@ -1,0 +1,74 @@
+// An update in the servo thread may not allocate: this program counts every malloc.
+#include "AnalyticSurfaces.h"
+#include "GodObject.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <random>
+
+using namespace haptics;
+using namespace haptics::testing;
+
+namespace
+{
+thread_local bool IsCounting = false;
+thread_local long Allocations = 0;
+}
+
+extern "C" void* __libc_malloc(std::size_t size);
+
+// Replaces the C library's for the whole program, operator new included.
+extern "C" void* malloc(std::size_t size)
+{
+  Allocations += IsCounting;
+  return __libc_malloc(size);
+}
+
+TEST(ServoSafety, TheCounterCounts)
+{
+  IsCounting = true;
+  Allocations = 0;
+  std::free(std::malloc(1 << 20));
+  delete new std::vector<int>(1000);
+  IsCounting = false;
+  EXPECT_GE(Allocations, 2);
+}
+
+TEST(ServoSafety, NoUpdateAllocates)
+{
+  const std::vector<std::shared_ptr<const TriangleSurface>> surfaces = {
+    MakeSurface(Star(4, 1.0, 0.4, 3)), MakeSurface(Box(1, 1, 1, 8)),
+    MakeSurface(Soup(500, 0.4, 2), Side::Both), MakeSurface(Square(1.0, 4), Side::Both),
+    MakeSurface(Icosphere(6, 1.0)), MakeSurface(Square(1.0), Side::Both, EngineKind::BruteForce)
+  };
+  for (const auto& surface : surfaces)
+  {
+    GodObject god({ surface });
+    god.Update({ 2, 2, 2 });
+    std::mt19937 random(4);
+    std::normal_distribution<double> normal;
+    Vec3 hip{};
+    long total = 0;
+    for (int tick = 0; tick < 20000; ++tick)
+    {
+      // Slides, exactly along mesh lines at times, with jumps: exact arithmetic is needed in some.
+      if (tick % 100 == 0)
+      {
+        hip = { normal(random), normal(random), normal(random) };
+      }
+      const double step = 0.01 * normal(random);
+      hip[tick % 3] += tick % 500 < 250 ? step : std::round(step * 256.0) / 256.0;
+      if (tick % 500 == 250)
+      {
+        hip = { 0.25, 0.5, 0.75 };
+      }
+      IsCounting = true;
+      Allocations = 0;
+      god.Update(hip);
+      IsCounting = false;
+      total += Allocations;
+    }
+    EXPECT_EQ(total, 0);
+  }
+}

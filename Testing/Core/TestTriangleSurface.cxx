@@ -1,0 +1,123 @@
+// What a snapshot finds out about its triangles, and what it refuses.
+#include "AnalyticSurfaces.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+using namespace haptics;
+using namespace haptics::testing;
+
+namespace
+{
+std::string ErrorOf(TriangleMesh mesh, SurfaceOptions options = {})
+{
+  std::string error;
+  EXPECT_FALSE(TriangleSurface::Build(std::move(mesh), options, error));
+  return error;
+}
+}
+
+TEST(TriangleSurface, ReportsAClosedOrientedBox)
+{
+  const auto surface = MakeSurface(Box(1, 2, 3, 2), Side::Automatic);
+  const SurfaceReport& report = surface->Report();
+  EXPECT_TRUE(report.Closed);
+  EXPECT_TRUE(report.Oriented);
+  EXPECT_EQ(report.Components, 1);
+  EXPECT_EQ(report.BoundaryEdges, 0);
+  EXPECT_EQ(report.InsideOutComponents, 0);
+  EXPECT_EQ(surface->TouchedSide(), Side::Front);
+}
+
+TEST(TriangleSurface, EveryEdgeOfAClosedSurfaceHasItsNeighbour)
+{
+  const auto surface = MakeSurface(Icosphere(2, 1.0));
+  const Neighbours& neighbours = surface->AdjacentTriangles();
+  for (std::size_t i = 0; i < neighbours.size(); ++i)
+  {
+    for (const std::int32_t other : neighbours[i])
+    {
+      ASSERT_GE(other, 0);
+      const auto& back = neighbours[other];
+      EXPECT_EQ(std::count(back.begin(), back.end(), static_cast<std::int32_t>(i)), 1);
+    }
+  }
+}
+
+TEST(TriangleSurface, AnOpenSurfaceIsTouchedFromBothSides)
+{
+  const auto surface = MakeSurface(Square(1.0, 3), Side::Automatic);
+  EXPECT_FALSE(surface->Report().Closed);
+  EXPECT_EQ(surface->Report().BoundaryEdges, 12);
+  EXPECT_EQ(surface->TouchedSide(), Side::Both);
+}
+
+TEST(TriangleSurface, AFlippedTriangleIsCountedAndBothSidesAreTouched)
+{
+  TriangleMesh mesh = Icosphere(1, 1.0);
+  std::swap(mesh.Triangles[7][0], mesh.Triangles[7][1]);
+  const auto surface = MakeSurface(mesh, Side::Automatic);
+  EXPECT_EQ(surface->Report().FlippedEdges, 3);
+  EXPECT_EQ(surface->TouchedSide(), Side::Both);
+}
+
+TEST(TriangleSurface, AnEdgeOfThreeTrianglesIsNotManifold)
+{
+  TriangleMesh mesh = Square(1.0, 1);
+  mesh.Points.push_back({ 0, 0, 1 });
+  mesh.Triangles.push_back({ 0, 3, 4 }); // a fin on the diagonal
+  const auto surface = MakeSurface(mesh, Side::Automatic);
+  EXPECT_EQ(surface->Report().NonManifoldEdges, 1);
+  EXPECT_EQ(surface->TouchedSide(), Side::Both);
+}
+
+TEST(TriangleSurface, AnInsideOutShellIsTouchedFromBothSides)
+{
+  const auto surface = MakeSurface(InsideOut(Icosphere(2, 1.0)), Side::Automatic);
+  EXPECT_EQ(surface->Report().InsideOutComponents, 1);
+  EXPECT_EQ(surface->TouchedSide(), Side::Both);
+}
+
+TEST(TriangleSurface, AHollowIsNotInsideOut)
+{
+  const TriangleMesh ball = Joined(Icosphere(2, 1.0), InsideOut(Icosphere(2, 0.5)));
+  const auto surface = MakeSurface(ball, Side::Automatic);
+  EXPECT_EQ(surface->Report().Components, 2);
+  EXPECT_EQ(surface->Report().InsideOutComponents, 0);
+  EXPECT_EQ(surface->TouchedSide(), Side::Front);
+}
+
+TEST(TriangleSurface, KeepsItsDetailFarFromTheWorldsOrigin)
+{
+  const Vec3 far{ 5e5, 4e6, 100 };
+  const auto surface = MakeSurface(Moved(Icosphere(1, 1e-3), far));
+  EXPECT_NEAR(surface->Radius(), 1.7e-3, 0.1e-3); // half the diagonal of a cube of 2 mm
+  EXPECT_NEAR(Length(surface->Origin() - far), 0.0, 1e-9);
+}
+
+TEST(TriangleSurface, NamesWhatIsWrongAndWhere)
+{
+  EXPECT_NE(ErrorOf({}).find("no triangle"), std::string::npos);
+
+  TriangleMesh nan = Square(1.0);
+  nan.Points[2][1] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(ErrorOf(nan).find("point 2"), std::string::npos);
+
+  TriangleMesh infinite = Square(1.0);
+  infinite.Points[3][0] = std::numeric_limits<double>::infinity();
+  EXPECT_NE(ErrorOf(infinite).find("point 3"), std::string::npos);
+
+  TriangleMesh outOfRange = Square(1.0);
+  outOfRange.Triangles[1][0] = 99;
+  EXPECT_NE(ErrorOf(outOfRange).find("99"), std::string::npos);
+
+  TriangleMesh flat;
+  flat.Points = { { 0, 0, 0 }, { 1, 1, 1 }, { 2, 2, 2 } };
+  flat.Triangles = { { 0, 1, 2 } };
+  EXPECT_NE(ErrorOf(flat).find("area"), std::string::npos);
+
+  SurfaceOptions negative;
+  negative.CrackWidth = -1.0;
+  EXPECT_NE(ErrorOf(Square(1.0), negative).find("crack"), std::string::npos);
+}
