@@ -50,7 +50,8 @@ void Give(vtkActor* part, vtkAlgorithmOutput* geometry, double red, double green
   property->SetSpecularPower(40.0);
 }
 
-/// Nearer than everything that is not drawn so, in unchanged order among what is.
+/// Nearer than everything that is not drawn so, in unchanged order among what is. For opaque parts:
+/// the translucent passes of VTK go by the depth that a fragment had before.
 void DrawThroughSurfaces(vtkActor* part)
 {
   part->GetShaderProperty()->AddFragmentShaderReplacement(
@@ -87,8 +88,6 @@ vtkGodObjectActor::vtkGodObjectActor()
   sphere->SetPhiResolution(24);
   Give(this->GodObjectPart, sphere->GetOutputPort(), 1.0, 0.78, 0.18);
   Give(this->HapticInterfacePointPart, sphere->GetOutputPort(), 0.55, 0.80, 1.0);
-  this->HapticInterfacePointPart->GetProperty()->SetOpacity(0.55);
-  this->HapticInterfacePointPart->GetProperty()->BackfaceCullingOn();
 
   vtkNew<vtkCylinderSource> bar;
   bar->SetCenter(0.0, 0.5, 0.0);
@@ -96,6 +95,7 @@ vtkGodObjectActor::vtkGodObjectActor()
   bar->SetResolution(24);
   Give(this->SpringPart, bar->GetOutputPort(), 0.85, 0.92, 1.0);
   Give(this->ForceShaftPart, bar->GetOutputPort(), 0.92, 0.22, 0.15);
+  DrawThroughSurfaces(this->GodObjectPart);
   DrawThroughSurfaces(this->HapticInterfacePointPart);
   DrawThroughSurfaces(this->SpringPart);
 

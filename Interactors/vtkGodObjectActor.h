@@ -4,11 +4,13 @@
  *
  * The parts, all in the world frame:
  * - the god-object, a sphere on the surface;
- * - the haptic interface point (HIP), a paler sphere where the device is: usually inside the
- *   surface, so it and the spring are drawn through whatever lies in front of them;
+ * - the haptic interface point (HIP), a paler and smaller sphere where the device is;
  * - the spring, a thin bar between the two;
  * - the force, an arrow at the god-object;
  * - the trail (off by default), the last points that the god-object went through.
+ *
+ * The HIP is usually inside the surface, so these three are drawn through whatever lies in front.
+ * Keep them opaque.
  *
  * Sizes are fractions of the view's height, so that a terrain of 30 km and a gear of 3 mm look
  * alike and zooming in does not hide the surface; see SetSizeInWorld() for the other way.

@@ -154,7 +154,7 @@ def finish(scene):
 
 
 def table(scene, trace):
-    """Rows of what was measured, and the share of ticks in contact."""
+    """Rows of what was measured, the share of ticks in contact, and the largest force [N]."""
     servo = scene.GetServo()
     data = trace.GetPointData()
     contact = float((vtk_to_numpy(data.GetArray("ActiveConstraints")) > 0).mean())
@@ -163,7 +163,7 @@ def table(scene, trace):
         ("ticks", f"{servo.GetNumberOfTicks()}"),
         ("ticks in the trace", f"{trace.GetNumberOfPoints()}"),
         ("in contact", f"{100.0 * contact:.1f} %"),
-        ("rate", f"{servo.GetRate():.1f} Hz"),
+        ("rate", f"{servo.GetMeasuredRate():.1f} Hz"),
         ("E[T^2]/E[T]", f"{1e3 * servo.GetPeriodRatio():.4f} ms"),
         ("T_max", f"{1e3 * servo.GetMaximumPeriod():.3f} ms"),
         ("missed ticks", f"{servo.GetNumberOfMissedTicks()}"),
@@ -172,7 +172,7 @@ def table(scene, trace):
         ("largest force", f"{force.max():.2f} N"),
         ("stiffness", f"{scene.GetStiffness():.0f} N/m"),
     ]
-    return rows, contact
+    return rows, contact, force.max()
 
 
 def needs_display():
@@ -200,7 +200,7 @@ def run(options):
     trace = scene.GetTrace()
     if trace.GetNumberOfPoints() == 0:
         raise DemoError("the servo did not tick: " + (scene.GetErrorMessage() or "no cause given"))
-    rows, contact = table(scene, trace)
+    rows, contact, strongest = table(scene, trace)
     width = max(len(label) for label, _ in rows)
     for label, value in rows:
         print(f"  {label:<{width}}  {value}")
@@ -211,7 +211,7 @@ def run(options):
     trace_file = os.path.join(options.output, "trace.vtp")
     picture_file = os.path.join(options.output, "touched.png")
     write_atomically(trace_file, trace, vtkXMLPolyDataWriter())
-    picture.add_stroke(stroke_lines(trace), picture.world_size(0.0035))
+    picture.add_stroke(stroke_lines(trace), picture.world_size(0.0035), strongest)
     add_hand(picture, scene.GetGodObjectActor(), trace)
     picture.save(picture_file)
     print(f"picture: {picture_file}\ntrace:   {trace_file}")

@@ -44,7 +44,7 @@ class Picture:
         self.surface_actor = self._add_surface(surface)
         self._light()
         self._aim(view, surface)
-        self._add_text(title)
+        self.add_text(title, 0.95, 20)
         self.window = vtkRenderWindow()
         self.window.SetOffScreenRendering(offscreen)
         self.window.SetSize(*SIZE)
@@ -106,19 +106,19 @@ class Picture:
         camera.SetViewAngle(angle)
         self.renderer.ResetCameraClippingRange()
 
-    def _add_text(self, title):
+    def add_text(self, words, height, size, color=(0.18, 0.21, 0.27)):
+        """Writes words at the left, at a share of the picture's height."""
         text = vtkTextActor()
-        text.SetInput(title)
-        text.GetTextProperty().SetFontSize(20)
-        text.GetTextProperty().SetColor(0.18, 0.21, 0.27)
+        text.SetInput(words)
+        text.GetTextProperty().SetFontSize(size)
+        text.GetTextProperty().SetColor(*color)
         text.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
-        text.SetPosition(0.02, 0.95)
+        text.SetPosition(0.02, height)
         self.renderer.AddActor2D(text)
 
-    def add_stroke(self, stroke, radius):
-        """Draws lines as tubes of a radius [world unit], coloured by the magnitude of Force [N]."""
-        stroke.GetPointData().SetActiveScalars("ForceMagnitude")
-        strongest = stroke.GetPointData().GetArray("ForceMagnitude").GetRange()[1]
+    def add_stroke(self, stroke, radius, strongest):
+        """Draws lines as tubes of a radius [world unit], coloured by ForceMagnitude, 0 to the
+        strongest force [N]."""
         tubes = vtkTubeFilter()
         tubes.SetInputData(stroke)
         tubes.SetRadius(radius)
@@ -222,20 +222,32 @@ def stroke_lines(trace, every=4):
 
 
 def add_hand(picture, actor, trace):
-    """Shows the hand as it was in the tick whose force is seen best from the camera."""
+    """Shows the hand in the tick whose force is seen best from the camera, the odd peak left out."""
     points = vtk_to_numpy(trace.GetPoints().GetData())
     data = trace.GetPointData()
     force = vtk_to_numpy(data.GetArray("Force"))
     hip = vtk_to_numpy(data.GetArray("HapticInterfacePoint"))
     toward = np.array(picture.renderer.GetActiveCamera().GetDirectionOfProjection())
     across = np.linalg.norm(force - np.outer(force @ toward, toward), axis=1)
+    strength = np.linalg.norm(force, axis=1)
+    across[strength > 1.5 * np.median(strength[strength > 0.0])] = 0.0
     tick = int(across.argmax())
     actor.SetGodObject(points[tick])
     actor.SetHapticInterfacePoint(hip[tick])
     actor.SetForce(force[tick])
     actor.SetTouching(bool(data.GetArray("ActiveConstraints").GetValue(tick) > 0))
     actor.ShowTrailOff()
-    actor.SetReferenceForce(max(float(np.linalg.norm(force[tick])), 1e-12))
+    actor.SetReferenceForce(max(float(strength[tick]), 1e-12))
+    actor.SetSize(0.015)
+    for i, (words, look) in enumerate(
+        (
+            ("force", actor.GetForceProperty()),
+            ("device (HIP)", actor.GetHapticInterfacePointProperty()),
+            ("god-object", actor.GetGodObjectProperty()),
+        )
+    ):
+        color = [0.75 * c for c in look.GetColor()]
+        picture.add_text(words, 0.03 + 0.03 * i, 16, color)
     if not picture.renderer.HasViewProp(actor):
         picture.renderer.AddViewProp(actor)
     picture.renderer.ResetCameraClippingRange()

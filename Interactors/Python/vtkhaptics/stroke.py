@@ -14,7 +14,7 @@ from vtkmodules.vtkCommonCore import mutable, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData, vtkStaticCellLocator
 
 MAP_SIZE = 64  # rays across the map
-CURVE_SAMPLES = 240
+CURVE_SAMPLES = 480
 STEEP = 1.2  # rise over run that counts as a cliff
 APPROACH = 0.4  # [s] to come down, and to lift off
 
@@ -83,7 +83,7 @@ def _score(view, grid, u, v):
     run = np.hypot(np.diff(u, append=u[0]), np.diff(v, append=v[0]))
     # Neighbouring map cells may differ by a cell's slope without there being a cliff.
     cliffs = (rise > STEEP * np.maximum(run, 1.5 / scale)).mean()
-    return 1.0 - 6.0 * missing - 5.0 * cliffs
+    return 1.0 - 8.0 * missing - 15.0 * cliffs
 
 
 def _best_curve(view, locator):
@@ -106,7 +106,7 @@ def _best_curve(view, locator):
 
 
 def _smooth(values, width):
-    """A moving average over 2 width + 1 samples of a closed curve."""
+    """A weighted moving average over 2 width + 1 samples of a closed curve."""
     kernel = np.hanning(2 * width + 3)[1:-1]
     padded = np.concatenate([values[-width:], values, values[:width]])
     return np.convolve(padded, kernel / kernel.sum(), mode="valid")
@@ -159,8 +159,9 @@ def plan_stroke(surface, seconds, depth_share=0.022):
     height = view.heights(locator, u, v)
     known = np.flatnonzero(np.isfinite(height))
     height = np.interp(np.arange(samples), known, height[known], period=samples)
-    width = max(1, samples // 250)
+    width = max(1, samples // 100)
     depth = depth_share * view.radius
+    # A mean of minima over the same width is nowhere above the surface.
     height = _smooth(_lowest_nearby(height, width), width) - depth
 
     ramp = np.linspace(0.0, 1.0, int(200 * APPROACH), endpoint=False)
