@@ -58,23 +58,21 @@ struct Facet
     return std::max(
       minimum, std::min(4.0 * this->DistanceError(distance), 1e-6 * this->LongestEdge));
   }
-
-  /// Whether x, projected on the plane, lies in the triangle grown by `growth` beyond its edges.
-  bool Covers(const Vector& x, double growth) const
-  {
-    for (int k = 0; k < 3; ++k)
-    {
-      const Vector& from = this->Corner[k];
-      const Vector edge = this->Corner[(k + 1) % 3] - from;
-      const Vector inward = glm::cross(this->Normal, edge);
-      if (glm::dot(inward, x - from) < -growth * glm::length(edge))
-      {
-        return false;
-      }
-    }
-    return true;
-  }
 };
+
+/// Whether x, projected on the triangle's plane, lies in the triangle grown by `growth` beyond its
+/// edges. `normal` is the unit normal; its sign follows the corners' order.
+inline bool CoversGrown(const Vector& normal, const Vector& a, const Vector& b, const Vector& c,
+  const Vector& x, double growth)
+{
+  const auto isWithin = [&](const Vector& from, const Vector& to)
+  {
+    const Vector edge = to - from;
+    const double inward = glm::dot(glm::cross(normal, edge), x - from);
+    return inward >= 0.0 || inward * inward <= growth * growth * SquaredLength(edge);
+  };
+  return isWithin(a, b) && isWithin(b, c) && isWithin(c, a);
+}
 
 /// A facet is met a little beyond its edges, by this many clearances: closes cracks as wide.
 constexpr double GrowthPerClearance = 4.0;

@@ -42,7 +42,7 @@ WorkingSet::WorkingSet(
   this->Triangles.resize(capacity);
   this->Flipped.resize(capacity);
   for (auto* values : { &this->NormalX, &this->NormalY, &this->NormalZ, &this->PlaneOffset,
-         &this->Error, &this->Clearance, &this->Distance, &this->TargetDistance })
+         &this->Error, &this->Clearance, &this->Distance, &this->TargetDistance, &this->Limit })
   {
     values->resize(capacity);
   }
@@ -171,7 +171,7 @@ bool WorkingSet::GatherSegment(const Vector& to, WorkBudget& budget)
   return true;
 }
 
-Facet WorkingSet::MakeFacet(std::int32_t triangle) const
+WorkingSet::Corners WorkingSet::CornersOf(std::int32_t triangle) const
 {
   const auto& corners = this->Touched->Triangles()[triangle];
   const auto& points = this->Touched->Points();
@@ -182,14 +182,10 @@ Facet WorkingSet::MakeFacet(std::int32_t triangle) const
 void WorkingSet::Fill(const TriangleList& found, double reach)
 {
   this->Count = 0;
-  const auto& triangles = this->Touched->Triangles();
-  const auto& points = this->Touched->Points();
   for (std::int32_t k = 0; k < found.Count; ++k)
   {
     const std::int32_t id = found.Indices[k];
-    const Vector a = ToVector(points[triangles[id][0]]);
-    const Vector b = ToVector(points[triangles[id][1]]);
-    const Vector c = ToVector(points[triangles[id][2]]);
+    const auto [a, b, c] = this->CornersOf(id);
     if (!BoxMeetsBall(
           glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)), this->Centre, this->Radius))
     {
@@ -214,6 +210,7 @@ void WorkingSet::Fill(const TriangleList& found, double reach)
   }
   this->Measure(this->Position, this->Distance);
   this->TurnToPosition();
+  this->SetLimits();
 }
 
 void WorkingSet::Measure(const Vector& x, std::vector<double>& distances) const
@@ -241,9 +238,8 @@ void WorkingSet::TurnToPosition()
     bool isBehind = this->Distance[i] < 0.0;
     if (std::abs(this->Distance[i]) <= this->Error[i])
     {
-      const Facet facet = this->MakeFacet(this->Triangles[i]);
-      const int side =
-        Orientation(facet.Corner[0], facet.Corner[1], facet.Corner[2], this->Position);
+      const auto [a, b, c] = this->CornersOf(this->Triangles[i]);
+      const int side = Orientation(a, b, c, this->Position);
       isBehind = (this->Flipped[i] ? -side : side) < 0;
     }
     if (isBehind)
@@ -258,23 +254,33 @@ void WorkingSet::TurnToPosition()
   }
 }
 
+void WorkingSet::SetLimits()
+{
+  for (std::int32_t i = 0; i < this->Count; ++i)
+  {
+    // Half the clearance, so that rounding along flat neighbours does not look like a hit.
+    const double limit = std::min(0.5 * this->Clearance[i], this->Distance[i]);
+    this->Limit[i] = this->Distance[i] < -this->Error[i] ? -HUGE_VAL : limit;
+  }
+}
+
 FacetHit WorkingSet::Scan(const Vector& to, const ActivePlanes& active)
 {
   this->Target = to;
   this->Measure(to, this->TargetDistance);
   const Vector way = to - this->Position;
+  const double wayError = 16.0 * UnitRoundoff * glm::length(way);
   FacetHit hit;
   double deepest = HUGE_VAL;
   for (std::int32_t i = 0; i < this->Count; ++i)
   {
-    const double here = this->Distance[i];
-    const double there = this->TargetDistance[i];
-    const double clearance = this->Clearance[i];
-    // Half the clearance, so that rounding along flat neighbours does not look like a hit.
-    if (there >= 0.5 * clearance || there >= here || here < -this->Error[i])
+    if (this->TargetDistance[i] >= this->Limit[i])
     {
       continue;
     }
+    const double here = this->Distance[i];
+    const double there = this->TargetDistance[i];
+    const double clearance = this->Clearance[i];
     const double approach = here - there;
     // Within two clearances is near enough: steps of rounding's size are not worth their check.
     const double stop = here <= 2.0 * clearance ? 0.0 : (here - clearance) / approach;
@@ -287,25 +293,26 @@ FacetHit WorkingSet::Scan(const Vector& to, const ActivePlanes& active)
     {
       continue;
     }
-    const double cross = std::clamp(here / approach, 0.0, 1.0);
     const bool isActive = active.Has(id);
     if (isActive && there > 0.0)
     {
       continue;
     }
-    const Facet facet = this->MakeFacet(this->Triangles[i]);
-    const double growth =
-      GrowthPerClearance * clearance + 16.0 * UnitRoundoff * glm::length(way);
+    const auto [a, b, c] = this->CornersOf(id.Triangle);
+    const Vector normal = this->FacetNormal(i);
+    const double growth = GrowthPerClearance * clearance + wayError;
     const double enter = std::max(0.0, (here - 0.5 * clearance) / approach);
-    const bool meets = (!isActive && facet.Covers(this->Position + enter * way, growth)) ||
-      (there <= 0.0 && facet.Covers(this->Position + cross * way, growth));
+    const double cross = std::clamp(here / approach, 0.0, 1.0);
+    const bool meets =
+      (!isActive && CoversGrown(normal, a, b, c, this->Position + enter * way, growth)) ||
+      (there <= 0.0 && CoversGrown(normal, a, b, c, this->Position + cross * way, growth));
     if (meets)
     {
       deepest = there;
       hit.Fraction = stop;
       hit.Plane.Facet = id;
-      hit.Plane.Normal = { this->NormalX[i], this->NormalY[i], this->NormalZ[i] };
-      hit.Plane.Anchor = facet.Corner[facet.Anchor] + this->Offset;
+      hit.Plane.Normal = this->Flipped[i] ? -normal : normal;
+      hit.Plane.Anchor = a + this->Offset;
       hit.Plane.Clearance = clearance;
     }
   }
@@ -334,10 +341,11 @@ bool WorkingSet::IsClear(const Vector& target)
 
 bool WorkingSet::Touches(std::int32_t i, const Vector& from, const Vector& to) const
 {
-  const Facet facet = this->MakeFacet(this->Triangles[i]);
-  const Vector& a = facet.Corner[0];
-  const Vector& b = facet.Corner[this->Flipped[i] ? 2 : 1];
-  const Vector& c = facet.Corner[this->Flipped[i] ? 1 : 2];
+  auto [a, b, c] = this->CornersOf(this->Triangles[i]);
+  if (this->Flipped[i])
+  {
+    std::swap(b, c);
+  }
   const int before = this->Distance[i] > this->Error[i] ? 1 : Orientation(a, b, c, from);
   if (before < 0)
   {
@@ -361,11 +369,14 @@ void WorkingSet::Move()
     return;
   }
   this->TurnToPosition();
+  this->SetLimits();
 }
 
 bool WorkingSet::Covers(const ActivePlane& plane, const Vector& position) const
 {
-  const Facet facet = this->MakeFacet(plane.Facet.Triangle);
-  return facet.Covers(position - this->Offset, GrowthPerClearance * plane.Clearance);
+  const auto [a, b, c] = this->CornersOf(plane.Facet.Triangle);
+  const bool isFlipped = glm::dot(glm::cross(b - a, c - a), plane.Normal) < 0.0;
+  return CoversGrown(isFlipped ? -plane.Normal : plane.Normal, a, b, c, position - this->Offset,
+    GrowthPerClearance * plane.Clearance);
 }
 }

@@ -74,9 +74,19 @@ private:
   void Fill(const TriangleList& found, double reach);
   void Measure(const Vector& x, std::vector<double>& distances) const;
   void TurnToPosition();
+  void SetLimits();
   FacetHit Scan(const Vector& to, const ActivePlanes& active);
   bool Touches(std::int32_t i, const Vector& from, const Vector& to) const;
-  Facet MakeFacet(std::int32_t triangle) const;
+  struct Corners
+  {
+    Vector A, B, C;
+  };
+  Corners CornersOf(std::int32_t triangle) const;
+  Vector FacetNormal(std::int32_t i) const
+  {
+    const Vector n{ this->NormalX[i], this->NormalY[i], this->NormalZ[i] };
+    return this->Flipped[i] ? -n : n;
+  }
   bool IsInBall(const Vector& x) const;
 
   std::shared_ptr<const TriangleSurface> Touched;
@@ -100,6 +110,8 @@ private:
   std::vector<double> NormalX, NormalY, NormalZ, PlaneOffset;
   std::vector<double> Error, Clearance;
   std::vector<double> Distance, TargetDistance;
+  /// A motion that ends nearer to the plane than this may meet the facet.
+  std::vector<double> Limit;
 };
 }
 
