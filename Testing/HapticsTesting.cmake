@@ -10,10 +10,7 @@
 #
 # C++ image tests use VTK's own vtk_add_test_cxx() and vtk_test_cxx_executable().
 
-# AddressSanitizer finds leaks in the graphics driver that are not ours; its other findings stay on.
 set(haptics_test_environment
-  "ASAN_OPTIONS=detect_leaks=0"
-  "LD_LIBRARY_PATH=${CMAKE_LIBRARY_OUTPUT_DIRECTORY}:$ENV{LD_LIBRARY_PATH}"
   "PYTHONPATH=${haptics_python_dir}"
   "PYTHONDONTWRITEBYTECODE=1"
   "HAPTICS_SOURCE_DIR=${PROJECT_SOURCE_DIR}"
