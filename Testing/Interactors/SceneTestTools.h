@@ -1,0 +1,73 @@
+#ifndef SceneTestTools_h
+#define SceneTestTools_h
+
+#include "vtkCallbackCommand.h"
+#include "vtkHapticScene.h"
+#include "vtkNew.h"
+#include "vtkPlaneSource.h"
+#include "vtkPolyData.h"
+#include "vtkSimulatedHapticDevice.h"
+#include "vtkSmartPointer.h"
+
+#include <cmath>
+
+/// A square of 0.2 by 0.2 around the z axis, facing up, in two triangles' worth of one quad.
+inline vtkSmartPointer<vtkPolyData> MakeTable(double height)
+{
+  vtkNew<vtkPlaneSource> plane;
+  plane->SetOrigin(-0.1, -0.1, height);
+  plane->SetPoint1(0.1, -0.1, height);
+  plane->SetPoint2(-0.1, 0.1, height);
+  plane->Update();
+  return plane->GetOutput();
+}
+
+/// Counts an event, and keeps VTK's errors out of the output where it is an ErrorEvent.
+class EventCounter
+{
+public:
+  EventCounter(vtkObject* subject, unsigned long event)
+    : Subject(subject)
+  {
+    this->Command->SetClientData(this);
+    this->Command->SetCallback([](vtkObject*, unsigned long, void* self, void*) {
+      ++static_cast<EventCounter*>(self)->Count;
+    });
+    subject->AddObserver(event, this->Command);
+  }
+  ~EventCounter() { this->Subject->RemoveObserver(this->Command); }
+  EventCounter(const EventCounter&) = delete;
+  EventCounter& operator=(const EventCounter&) = delete;
+
+  int Count = 0;
+
+private:
+  vtkSmartPointer<vtkObject> Subject;
+  vtkNew<vtkCallbackCommand> Command;
+};
+
+/// A scene with a hand that the test leads. Device and world frame are the same.
+///
+///         hand above
+///     ------------------ table at z = 0
+///         hand below
+struct LedHand
+{
+  vtkNew<vtkSimulatedHapticDevice> Device;
+  vtkNew<vtkHapticScene> Scene;
+
+  LedHand() { this->Scene->SetDevice(this->Device); }
+
+  /// Moves the hand to a height over the table's middle and lets a tick go by.
+  void MoveTo(double height)
+  {
+    this->Device->SetPosition(0.01, 0.02, height);
+    this->Scene->Step(1);
+  }
+  double GodObjectHeight() { return this->Scene->GetGodObject()[2]; }
+};
+
+/// A float32 table is kept at a distance of its crack width: 2^-21 of 0.1, with some room.
+constexpr double Clearance = 1e-6;
+
+#endif

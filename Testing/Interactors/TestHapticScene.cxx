@@ -1,0 +1,277 @@
+#include "SceneTestTools.h"
+
+#include "vtkDataArray.h"
+#include "vtkHapticServo.h"
+#include "vtkPointData.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <string>
+#include <thread>
+
+TEST(HapticScene, HoldsTheGodObjectOnTheSurfaceAndPushesBack)
+{
+  LedHand hand;
+  const int table = hand.Scene->AddSurface(MakeTable(0.0));
+  hand.Scene->SetStiffness(400.0);
+  hand.MoveTo(0.01);
+  EXPECT_FALSE(hand.Scene->GetTouching());
+  EXPECT_EQ(hand.Scene->GetTouchedSurface(), -1);
+  EXPECT_EQ(hand.Scene->GetForce()[2], 0.0);
+
+  hand.MoveTo(-0.005);
+  EXPECT_TRUE(hand.Scene->GetTouching());
+  EXPECT_EQ(hand.Scene->GetTouchedSurface(), table);
+  EXPECT_EQ(hand.Scene->GetTouchedCell(), 0);
+  EXPECT_EQ(hand.Scene->GetHapticInterfacePoint()[2], -0.005);
+  EXPECT_NEAR(hand.GodObjectHeight(), 0.0, Clearance);
+  EXPECT_NEAR(hand.Scene->GetPenetration(), 0.005, Clearance);
+  EXPECT_NEAR(hand.Scene->GetForce()[2], 400.0 * 0.005, 400.0 * Clearance);
+}
+
+TEST(HapticScene, TellsWhenContactBeginsAndEnds)
+{
+  LedHand hand;
+  hand.Scene->AddSurface(MakeTable(0.0));
+  EventCounter begins(hand.Scene, vtkHapticScene::ContactBeginEvent);
+  EventCounter ends(hand.Scene, vtkHapticScene::ContactEndEvent);
+  hand.MoveTo(0.01);
+  hand.MoveTo(-0.001);
+  hand.MoveTo(-0.002);
+  EXPECT_EQ(begins.Count, 1);
+  EXPECT_EQ(ends.Count, 0);
+  hand.MoveTo(0.01);
+  EXPECT_EQ(begins.Count, 1);
+  EXPECT_EQ(ends.Count, 1);
+}
+
+TEST(HapticScene, TouchesTheFirstOfSeveralSurfacesAndNamesIt)
+{
+  LedHand hand;
+  const int lower = hand.Scene->AddSurface(MakeTable(-0.01));
+  const int upper = hand.Scene->AddSurface(MakeTable(0.0));
+  ASSERT_NE(lower, upper);
+  hand.MoveTo(0.01);
+  hand.MoveTo(-0.02);
+  EXPECT_EQ(hand.Scene->GetTouchedSurface(), upper);
+  EXPECT_NEAR(hand.GodObjectHeight(), 0.0, Clearance);
+}
+
+TEST(HapticScene, ARemovedSurfaceLetsTheGodObjectThrough)
+{
+  LedHand hand;
+  const int table = hand.Scene->AddSurface(MakeTable(0.0));
+  hand.MoveTo(0.01);
+  hand.MoveTo(-0.005);
+  ASSERT_TRUE(hand.Scene->GetTouching());
+  EXPECT_TRUE(hand.Scene->RemoveSurface(table));
+  EXPECT_FALSE(hand.Scene->RemoveSurface(table));
+  hand.Scene->Step(1);
+  EXPECT_FALSE(hand.Scene->GetTouching());
+  EXPECT_EQ(hand.GodObjectHeight(), -0.005);
+  EXPECT_NE(hand.Scene->AddSurface(MakeTable(0.0)), table) << "an id was given twice";
+}
+
+TEST(HapticScene, FollowsGeometryThatMoves)
+{
+  LedHand hand;
+  vtkNew<vtkPlaneSource> plane;
+  plane->SetOrigin(-0.1, -0.1, 0.0);
+  plane->SetPoint1(0.1, -0.1, 0.0);
+  plane->SetPoint2(-0.1, 0.1, 0.0);
+  hand.Scene->AddSurface(plane->GetOutputPort());
+  hand.MoveTo(0.01);
+  hand.MoveTo(-0.02);
+  ASSERT_NEAR(hand.GodObjectHeight(), 0.0, Clearance);
+  hand.MoveTo(0.01);
+  plane->Push(-0.01);
+  hand.MoveTo(-0.02);
+  EXPECT_NEAR(hand.GodObjectHeight(), -0.01, Clearance);
+}
+
+TEST(HapticScene, KeepsWhatItTouchesWhenItsGeometryTurnsBadAndSaysWhyOnce)
+{
+  struct Case
+  {
+    const char* Name;
+    void (*Spoil)(vtkPolyData*);
+  };
+  const Case cases[] = {
+    { "empty", [](vtkPolyData* p) { p->Initialize(); } },
+    { "not finite",
+      [](vtkPolyData* p) {
+        p->GetPoints()->SetPoint(2, 0.1, std::nan(""), 0.0);
+        p->GetPoints()->Modified();
+      } },
+    { "lines only",
+      [](vtkPolyData* p) {
+        p->SetLines(p->GetPolys());
+        p->SetPolys(nullptr);
+      } },
+  };
+  for (const Case& spoiled : cases)
+  {
+    SCOPED_TRACE(spoiled.Name);
+    LedHand hand;
+    vtkSmartPointer<vtkPolyData> table = MakeTable(0.0);
+    const int id = hand.Scene->AddSurface(table);
+    hand.MoveTo(0.01);
+    EventCounter errors(hand.Scene, vtkCommand::ErrorEvent);
+    EventCounter told(hand.Scene, vtkHapticScene::SurfaceErrorEvent);
+    spoiled.Spoil(table);
+    hand.MoveTo(-0.005);
+    hand.MoveTo(-0.006);
+    EXPECT_TRUE(hand.Scene->IsSurfaceTouchable(id));
+    EXPECT_NEAR(hand.GodObjectHeight(), 0.0, Clearance);
+    EXPECT_EQ(errors.Count, 1);
+    EXPECT_EQ(told.Count, 1);
+    EXPECT_NE(std::string(hand.Scene->GetErrorMessage()).find("Surface 0"), std::string::npos)
+      << hand.Scene->GetErrorMessage();
+  }
+}
+
+TEST(HapticScene, ASurfaceThatWasNeverGoodIsFreeSpaceUntilItIs)
+{
+  LedHand hand;
+  vtkNew<vtkPolyData> table;
+  const int id = hand.Scene->AddSurface(table);
+  {
+    EventCounter errors(hand.Scene, vtkCommand::ErrorEvent);
+    hand.MoveTo(0.01);
+    EXPECT_EQ(errors.Count, 1);
+  }
+  EXPECT_FALSE(hand.Scene->IsSurfaceTouchable(id));
+  table->DeepCopy(MakeTable(0.0));
+  hand.MoveTo(-0.005);
+  EXPECT_TRUE(hand.Scene->IsSurfaceTouchable(id));
+  EXPECT_TRUE(hand.Scene->GetTouching());
+}
+
+TEST(HapticScene, RefusesMissingThings)
+{
+  vtkNew<vtkHapticScene> scene;
+  EventCounter errors(scene, vtkCommand::ErrorEvent);
+  EXPECT_EQ(scene->AddSurface(static_cast<vtkPolyData*>(nullptr)), -1);
+  EXPECT_EQ(errors.Count, 1);
+  EXPECT_FALSE(scene->Engage()) << "there is no device";
+  EXPECT_EQ(errors.Count, 2);
+  EXPECT_NE(std::string(scene->GetErrorMessage()).find("SetDevice"), std::string::npos);
+  EXPECT_EQ(scene->Step(0), 0);
+  EXPECT_EQ(errors.Count, 3);
+}
+
+TEST(HapticScene, UpdateTellsWhetherAnythingChanged)
+{
+  LedHand hand;
+  hand.Scene->AddSurface(MakeTable(0.0));
+  EXPECT_TRUE(hand.Scene->Update()) << "a surface came";
+  EXPECT_FALSE(hand.Scene->Update());
+  hand.MoveTo(0.01);
+  EXPECT_FALSE(hand.Scene->Update()) << "Step() has taken it in";
+  hand.Scene->RemoveAllSurfaces();
+  EXPECT_TRUE(hand.Scene->Update());
+  EXPECT_FALSE(hand.Scene->Update());
+}
+
+TEST(HapticScene, TheTraceHasOnePointATickWithItsArrays)
+{
+  LedHand hand;
+  const int table = hand.Scene->AddSurface(MakeTable(0.0));
+  hand.MoveTo(0.01);
+  hand.Scene->StartRecording();
+  hand.MoveTo(0.005);
+  hand.MoveTo(-0.004);
+  hand.Scene->StopRecording();
+  hand.MoveTo(-0.005);
+
+  vtkPolyData* trace = hand.Scene->GetTrace();
+  ASSERT_EQ(trace->GetNumberOfPoints(), 2);
+  ASSERT_EQ(trace->GetNumberOfLines(), 1);
+  const auto value = [&](const char* name, int point, int component) {
+    vtkDataArray* array = trace->GetPointData()->GetArray(name);
+    return array ? array->GetComponent(point, component) : std::nan("");
+  };
+  EXPECT_NEAR(value("Time", 1, 0) - value("Time", 0, 0), 0.001, 1e-12);
+  EXPECT_EQ(value("HapticInterfacePoint", 1, 2), -0.004);
+  EXPECT_EQ(value("ActiveConstraints", 0, 0), 0);
+  EXPECT_EQ(value("ActiveConstraints", 1, 0), 1);
+  EXPECT_EQ(value("Surface", 0, 0), -1);
+  EXPECT_EQ(value("Surface", 1, 0), table);
+  EXPECT_EQ(value("OriginalCellId", 0, 0), -1);
+  EXPECT_EQ(value("OriginalCellId", 1, 0), 0);
+  EXPECT_NEAR(value("Penetration", 1, 0), 0.004, Clearance);
+  EXPECT_NEAR(value("Force", 1, 2), 500.0 * 0.004, 500.0 * Clearance);
+  EXPECT_EQ(hand.Scene->GetNumberOfLostTicks(), 0);
+}
+
+TEST(HapticScene, LongRunsInVirtualTimeLoseNoTick)
+{
+  LedHand hand;
+  hand.Scene->AddSurface(MakeTable(0.0));
+  hand.Scene->StartRecording();
+  EXPECT_EQ(hand.Scene->Step(40000), 40000);
+  EXPECT_EQ(hand.Scene->GetTrace()->GetNumberOfPoints(), 40000);
+  EXPECT_EQ(hand.Scene->GetNumberOfLostTicks(), 0);
+}
+
+TEST(HapticScene, AFullTraceStopsRecordingWithAWarning)
+{
+  LedHand hand;
+  hand.Scene->SetMaximumTraceTicks(5);
+  EventCounter warnings(hand.Scene, vtkCommand::WarningEvent);
+  hand.Scene->StartRecording();
+  hand.Scene->Step(20);
+  EXPECT_FALSE(hand.Scene->GetRecording());
+  EXPECT_EQ(hand.Scene->GetTrace()->GetNumberOfPoints(), 5);
+  EXPECT_EQ(warnings.Count, 1);
+}
+
+TEST(HapticScene, EngagedItFeelsInRealTimeAndReleasedItAsksForNoForce)
+{
+  LedHand hand;
+  hand.Scene->AddSurface(MakeTable(0.0));
+  hand.MoveTo(0.01);
+  ASSERT_TRUE(hand.Scene->Engage());
+  EXPECT_EQ(hand.Scene->Step(1), 0) << "Step() must not run beside the servo thread";
+  hand.Device->SetPosition(0.0, 0.0, 0.005);
+  const auto wait = [&](auto condition) {
+    for (int i = 0; i < 2000 && !condition(); ++i) // 10 s at most
+    {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      hand.Scene->Update();
+    }
+    return condition();
+  };
+  EXPECT_TRUE(wait([&] { return hand.Scene->GetHapticInterfacePoint()[2] == 0.005; }));
+  hand.Device->SetPosition(0.0, 0.0, -0.005);
+  EXPECT_TRUE(wait([&] { return hand.Scene->GetTouching(); }));
+  EXPECT_GT(hand.Scene->GetForce()[2], 0.0);
+
+  hand.Scene->Release();
+  EXPECT_FALSE(hand.Scene->IsEngaged());
+  EXPECT_FALSE(hand.Scene->GetTouching());
+  EXPECT_EQ(hand.Scene->GetForce()[2], 0.0);
+  double asked[3];
+  hand.Device->GetForce(asked);
+  EXPECT_EQ(asked[2], 0.0);
+}
+
+TEST(HapticScene, ADeviceThatGoesAwayReleasesTheSceneAndSaysSo)
+{
+  LedHand hand;
+  hand.Scene->AddSurface(MakeTable(0.0));
+  ASSERT_TRUE(hand.Scene->Engage());
+  EventCounter faults(hand.Scene, vtkHapticScene::FaultEvent);
+  EventCounter errors(hand.Scene->GetServo(), vtkCommand::ErrorEvent);
+  hand.Device->Close();
+  for (int i = 0; i < 2000 && hand.Scene->IsEngaged(); ++i) // 10 s at most
+  {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    hand.Scene->Update();
+  }
+  EXPECT_FALSE(hand.Scene->IsEngaged());
+  EXPECT_EQ(faults.Count, 1);
+  EXPECT_STRNE(hand.Scene->GetErrorMessage(), "");
+  EXPECT_EQ(hand.Scene->GetForce()[2], 0.0);
+}

@@ -1,0 +1,154 @@
+#include "SceneTestTools.h"
+
+#include "vtkCamera.h"
+#include "vtkGodObjectActor.h"
+#include "vtkInteractorStyleHaptic.h"
+#include "vtkMatrix4x4.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkRenderWindow.h"
+#include "vtkRenderWindowInteractor.h"
+#include "vtkRenderer.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+/// A window whose events the test sends itself, one by one.
+struct Window
+{
+  LedHand Hand;
+  vtkNew<vtkRenderer> Renderer;
+  vtkNew<vtkRenderWindow> RenderWindow;
+  vtkNew<vtkRenderWindowInteractor> Interactor;
+  vtkNew<vtkInteractorStyleHaptic> Style;
+  vtkNew<vtkActor> Table;
+
+  Window()
+  {
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputData(MakeTable(0.0));
+    this->Table->SetMapper(mapper);
+    this->Renderer->AddActor(this->Table);
+    this->Renderer->AddViewProp(this->Hand.Scene->GetGodObjectActor());
+    this->RenderWindow->SetSize(100, 100);
+    this->RenderWindow->AddRenderer(this->Renderer);
+    this->Interactor->SetRenderWindow(this->RenderWindow);
+    this->Style->SetScene(this->Hand.Scene);
+    this->Interactor->SetInteractorStyle(this->Style);
+    this->Interactor->Initialize();
+    this->Renderer->ResetCamera();
+    this->RenderWindow->Render();
+    this->Hand.Scene->AddSurface(this->Table);
+    this->Hand.MoveTo(0.01);
+    this->Timer();
+  }
+  void Timer()
+  {
+    int id = this->Style->GetTimerId();
+    this->Interactor->InvokeEvent(vtkCommand::TimerEvent, &id);
+  }
+  void Press(char key)
+  {
+    this->Interactor->SetKeyEventInformation(0, 0, key, 0, nullptr);
+    this->Interactor->InvokeEvent(vtkCommand::CharEvent);
+  }
+};
+}
+
+TEST(InteractorStyleHaptic, RendersOnlyWhenSomethingHasChanged)
+{
+  Window window;
+  ASSERT_NE(window.Style->GetTimerId(), 0);
+  EventCounter renders(window.RenderWindow, vtkCommand::EndEvent);
+  for (int i = 0; i < 30; ++i)
+  {
+    window.Timer();
+  }
+  EXPECT_EQ(renders.Count, 0) << "nothing moved";
+  window.Table->SetPosition(0.0, 0.0, 0.001);
+  window.Timer();
+  EXPECT_EQ(renders.Count, 1);
+  window.Timer();
+  EXPECT_EQ(renders.Count, 1);
+}
+
+TEST(InteractorStyleHaptic, TheCameraTurnsAsInTheTrackballStyle)
+{
+  Window window;
+  Window plain;
+  vtkNew<vtkInteractorStyleTrackballCamera> trackball;
+  plain.Interactor->SetInteractorStyle(trackball);
+  for (Window* each : { &window, &plain })
+  {
+    vtkRenderWindowInteractor* interactor = each->Interactor;
+    interactor->SetEventInformation(50, 50, 0, 0);
+    interactor->InvokeEvent(vtkCommand::LeftButtonPressEvent);
+    interactor->SetEventInformation(70, 60, 0, 0);
+    interactor->InvokeEvent(vtkCommand::MouseMoveEvent);
+    // A timer of the scene's in the middle of a drag must not turn it further.
+    each->Timer();
+    interactor->InvokeEvent(vtkCommand::LeftButtonReleaseEvent);
+  }
+  const double* turned = window.Renderer->GetActiveCamera()->GetPosition();
+  const double* expected = plain.Renderer->GetActiveCamera()->GetPosition();
+  for (int i = 0; i < 3; ++i)
+  {
+    EXPECT_NEAR(turned[i], expected[i], 1e-12);
+  }
+  EXPECT_GT(std::abs(turned[0]), 1e-3) << "the drag did turn the camera";
+}
+
+TEST(InteractorStyleHaptic, KeysEngageReleaseAndShowTheTrail)
+{
+  Window window;
+  window.Press('h');
+  EXPECT_TRUE(window.Hand.Scene->IsEngaged());
+  window.Press('h');
+  EXPECT_FALSE(window.Hand.Scene->IsEngaged());
+  window.Press('b');
+  EXPECT_TRUE(window.Hand.Scene->GetGodObjectActor()->GetShowTrail());
+  window.Press('v');
+  EXPECT_NE(window.Hand.Scene->GetWorkspaceTransform()->GetElement(0, 0), 1.0)
+    << "fitted to the table as the camera sees it";
+}
+
+TEST(InteractorStyleHaptic, TheHandIsWithinTheClippingRange)
+{
+  Window window;
+  window.Hand.MoveTo(0.3); // far above the flat table, towards the camera
+  window.Table->SetPosition(0.0, 0.0, 0.001);
+  window.Timer();
+  vtkCamera* camera = window.Renderer->GetActiveCamera();
+  double range[2];
+  camera->GetClippingRange(range);
+  const double depth = camera->GetPosition()[2] - 0.3;
+  ASSERT_GT(depth, 0.0);
+  EXPECT_LT(range[0], depth);
+  EXPECT_GT(range[1], depth);
+}
+
+TEST(InteractorStyleHaptic, AClosedWindowReleasesTheScene)
+{
+  Window window;
+  ASSERT_TRUE(window.Hand.Scene->Engage());
+  window.Interactor->InvokeEvent(vtkCommand::ExitEvent);
+  EXPECT_FALSE(window.Hand.Scene->IsEngaged());
+  EXPECT_EQ(window.Style->GetTimerId(), 0);
+}
+
+TEST(InteractorStyleHaptic, OutlivesItsInteractorAndItsWindow)
+{
+  vtkNew<vtkInteractorStyleHaptic> style;
+  vtkSmartPointer<vtkHapticScene> scene;
+  {
+    Window window;
+    scene = window.Hand.Scene;
+    window.Interactor->SetInteractorStyle(style);
+    style->SetScene(scene);
+    ASSERT_NE(style->GetTimerId(), 0);
+    window.RenderWindow->Finalize();
+    window.Timer();
+  }
+  EXPECT_EQ(style->GetTimerId(), 0);
+  EXPECT_FALSE(style->UpdateScene());
+}

@@ -1,0 +1,92 @@
+"""The demo leaves its picture, trace and table, and says what is wrong with bad input."""
+
+import os
+import subprocess
+import sys
+import tempfile
+
+from vtkmodules.vtkCommonComputationalGeometry import vtkParametricTorus
+from vtkmodules.vtkFiltersSources import vtkLineSource, vtkParametricFunctionSource
+from vtkmodules.vtkIOImage import vtkPNGReader
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
+
+
+def demo(*arguments):
+    return subprocess.run(
+        [sys.executable, "-m", "vtkhaptics.demo", *arguments],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+
+def write(source, path):
+    writer = vtkXMLPolyDataWriter()
+    writer.SetInputConnection(source.GetOutputPort())
+    writer.SetFileName(path)
+    writer.SetDataModeToBinary()
+    assert writer.Write() == 1
+    return path
+
+
+def test_touches_a_surface(folder):
+    torus = vtkParametricFunctionSource()
+    torus.SetParametricFunction(vtkParametricTorus())
+    surface = write(torus, os.path.join(folder, "torus.vtp"))
+    output = os.path.join(folder, "made", "here")
+    done = demo("--surface", surface, "--output", output, "--seconds", "3", "--offscreen")
+    assert done.returncode == 0, done.stdout + done.stderr
+    for row in ("ticks", "in contact", "rate", "E[T^2]/E[T]", "T_max", "median", "p99.9"):
+        assert row in done.stdout, row
+    picture = vtkPNGReader()
+    picture.SetFileName(os.path.join(output, "touched.png"))
+    picture.Update()
+    assert picture.GetOutput().GetDimensions() == (1200, 800, 1)
+    assert picture.GetOutput().GetScalarRange()[1] > 200, "the picture is dark"
+    trace = vtkXMLPolyDataReader()
+    trace.SetFileName(os.path.join(output, "trace.vtp"))
+    trace.Update()
+    data = trace.GetOutput().GetPointData()
+    ticks = trace.GetOutput().GetNumberOfPoints()
+    assert ticks > 1000, ticks  # 3000 on a machine that keeps up
+    touched = sum(
+        data.GetArray("ActiveConstraints").GetValue(i) > 0 for i in range(ticks)
+    )
+    assert touched > ticks / 2, (touched, ticks)
+    for name in ("Time", "HapticInterfacePoint", "Force", "Surface", "OriginalCellId"):
+        assert data.HasArray(name), name
+
+
+def test_bad_input(folder):
+    output = os.path.join(folder, "out")
+    lines = write(vtkLineSource(), os.path.join(folder, "lines.vtp"))
+    garbage = os.path.join(folder, "garbage.stl")
+    empty = os.path.join(folder, "empty.ply")
+    with open(garbage, "w", encoding="ascii") as file:
+        file.write("no surface")
+    with open(empty, "w", encoding="ascii"):
+        pass
+    for path, told in (
+        (lines, "no polygons"),
+        (garbage, "could not be read"),
+        (empty, "could not be read"),
+        (os.path.join(folder, "missing.stl"), "no such file"),
+        (__file__, "not known"),
+    ):
+        failed = demo("--surface", path, "--output", output, "--offscreen")
+        assert failed.returncode == 2, (path, failed.returncode, failed.stderr)
+        assert told in failed.stderr and path in failed.stderr, failed.stderr
+        assert "Traceback" not in failed.stderr, failed.stderr
+    assert not os.path.exists(output), "nothing is written before there is a surface"
+
+
+def test_arguments(folder):
+    assert "examples:" in demo("--help").stdout
+    assert demo("--surface", "a.stl").returncode == 2
+    assert demo("--surface", "a.stl", "--output", folder, "--seconds", "0").returncode == 2
+
+
+with tempfile.TemporaryDirectory() as scratch:
+    test_touches_a_surface(scratch)
+    test_bad_input(scratch)
+    test_arguments(scratch)
