@@ -210,7 +210,9 @@ def run(options):
 
     trace_file = os.path.join(options.output, "trace.vtp")
     picture_file = os.path.join(options.output, "touched.png")
-    write_atomically(trace_file, trace, vtkXMLPolyDataWriter())
+    writer = vtkXMLPolyDataWriter()
+    writer.SetDataModeToBinary()  # see surfaces.py: not every VTK reads appended data
+    write_atomically(trace_file, trace, writer)
     picture.add_stroke(stroke_lines(trace), picture.world_size(0.0035), strongest)
     add_hand(picture, scene.GetGodObjectActor(), trace)
     picture.save(picture_file)

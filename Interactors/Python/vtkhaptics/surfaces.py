@@ -16,6 +16,13 @@ READERS = {
     ".vtk": vtkPolyDataReader,
 }
 
+# With expat 2.6, or an older one that Debian mended against the same attack, VTK 9.1 and 9.2 stop
+# with an XML error at the appended data of all but the smallest files.
+APPENDED_DATA_HINT = (
+    " Its data is of the kind 'appended', which some builds of VTK cannot read: "
+    "save it with the data mode 'binary' or as .ply."
+)
+
 
 class SurfaceError(Exception):
     """What is wrong with a file, where, and what to do; for people."""
@@ -44,6 +51,11 @@ def _run(reader):
     return []
 
 
+def _has_appended_data(path):
+    with open(path, "rb") as file:
+        return b"<AppendedData" in file.read()
+
+
 def read_surface(path):
     """The vtkPolyData in a file of one of READERS' formats, in the file's own length unit.
 
@@ -67,6 +79,7 @@ def read_surface(path):
         raise SurfaceError(
             f"{path}: could not be read as {extension[1:].upper()}: {errors[0]} "
             "Check that the file is whole and that its extension is right."
+            + (APPENDED_DATA_HINT if extension == ".vtp" and _has_appended_data(path) else "")
         )
     surface = reader.GetOutput()
     if surface.GetNumberOfPolys() + surface.GetNumberOfStrips() == 0:
