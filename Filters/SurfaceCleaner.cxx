@@ -1,5 +1,6 @@
 #include "SurfaceCleaner.h"
 
+#include "DuplicateTriangles.h"
 #include "PointMerger.h"
 #include "PolygonSplitter.h"
 
@@ -14,7 +15,6 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
-#include <tuple>
 
 namespace haptics
 {
@@ -51,7 +51,6 @@ private:
   void AddStrip(vtkIdType cell, vtkIdType size, const vtkIdType* points);
   void AddTriangle(vtkIdType cell, const Triangle& triangle);
   bool Triangulate();
-  void DropDuplicates();
   void DropUnusedPoints();
   bool Report(double fraction);
   bool Fail(const std::string& text);
@@ -132,8 +131,8 @@ bool Cleaner::CheckSize()
   {
     std::ostringstream text;
     text << "The input has no polygon and no triangle strip to touch: it has "
-         << input->GetNumberOfPoints() << " points, " << input->GetNumberOfVerts()
-         << " verts and " << input->GetNumberOfLines()
+         << input->GetNumberOfPoints() << " points, " << input->GetNumberOfVerts() << " verts and "
+         << input->GetNumberOfLines()
          << " lines. Give it a surface, for example with a contour or an extract-surface filter "
             "before this one, or a tube filter for lines.";
     return this->Fail(text.str());
@@ -168,9 +167,8 @@ bool Cleaner::MarkCell(vtkIdType cell, vtkIdType size, const vtkIdType* points)
 bool Cleaner::MarkUsedPoints()
 {
   this->Merged.assign(this->Input->GetNumberOfPoints(), Unused);
-  const auto mark = [this](vtkIdType cell, vtkIdType size, const vtkIdType* points) {
-    return this->MarkCell(cell, size, points);
-  };
+  const auto mark = [this](vtkIdType cell, vtkIdType size, const vtkIdType* points)
+  { return this->MarkCell(cell, size, points); };
   if (!this->VisitCells(
         this->Input->GetPolys(), this->FirstStrip - this->Input->GetNumberOfPolys(), mark) ||
     !this->VisitCells(this->Input->GetStrips(), this->FirstStrip, mark))
@@ -190,11 +188,11 @@ bool Cleaner::MarkUsedPoints()
     this->Input->GetPoint(static_cast<vtkIdType>(i), point.data());
     for (int axis = 0; axis < 3; ++axis)
     {
-      if (!(std::abs(point[axis]) < 1e100)) // as TriangleSurface demands
+      if (!(std::abs(point[axis]) < LargestCoordinate)) // as TriangleSurface demands
       {
         std::ostringstream text;
         text << "Point " << i << " is (" << point[0] << ", " << point[1] << ", " << point[2]
-             << "): not finite, or beyond 1e100. It is the first such point. Remove the cells that "
+             << "): not finite, or beyond 1e70. It is the first such point. Remove the cells that "
                 "use it, or mend the source that made it.";
         return this->Fail(text.str());
       }
@@ -214,8 +212,8 @@ bool Cleaner::MarkUsedPoints()
   return true;
 }
 
-/// Points are equal where their coordinates relative to the origin are: the surface keeps these, and
-/// two that differ by less than it can hold would make triangles that lose their area there.
+/// Points are equal where their coordinates relative to the origin are: the surface keeps these,
+/// and two that differ by less than it can hold would make triangles that lose their area there.
 bool Cleaner::MergePoints()
 {
   const double tolerance =
@@ -235,8 +233,8 @@ bool Cleaner::MergePoints()
     {
       Vec3 point;
       this->Input->GetPoint(static_cast<vtkIdType>(i), point.data());
-      const std::int32_t kept = merger.Insert({ point[0] - this->Origin[0],
-        point[1] - this->Origin[1], point[2] - this->Origin[2] });
+      const std::int32_t kept = merger.Insert(
+        { point[0] - this->Origin[0], point[1] - this->Origin[1], point[2] - this->Origin[2] });
       this->Merged[i] = kept;
       if (static_cast<std::size_t>(kept) == world.size())
       {
@@ -339,75 +337,17 @@ bool Cleaner::Triangulate()
   this->Cleaned.Mesh.Triangles.reserve(expected);
   this->Cleaned.OriginalCell.reserve(expected);
   return this->VisitCells(polys, this->FirstStrip - polys->GetNumberOfCells(),
-           [this](vtkIdType cell, vtkIdType size, const vtkIdType* points) {
+           [this](vtkIdType cell, vtkIdType size, const vtkIdType* points)
+           {
              this->AddPolygon(cell, size, points);
              return true;
            }) &&
-    this->VisitCells(
-      strips, this->FirstStrip, [this](vtkIdType cell, vtkIdType size, const vtkIdType* points) {
+    this->VisitCells(strips, this->FirstStrip,
+      [this](vtkIdType cell, vtkIdType size, const vtkIdType* points)
+      {
         this->AddStrip(cell, size, points);
         return true;
       });
-}
-
-void Cleaner::DropDuplicates()
-{
-  std::vector<Triangle>& triangles = this->Cleaned.Mesh.Triangles;
-  const auto rotated = [&triangles](std::int32_t index) {
-    Triangle t = triangles[index];
-    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-    return t;
-  };
-  // Bins the triangles by their lowest corner, then looks for equal ones within each bin.
-  std::vector<std::int32_t> start(this->Cleaned.Mesh.Points.size() + 1, 0);
-  for (const Triangle& t : triangles)
-  {
-    ++start[*std::min_element(t.begin(), t.end()) + 1];
-  }
-  for (std::size_t i = 1; i < start.size(); ++i)
-  {
-    start[i] += start[i - 1];
-  }
-  struct Entry
-  {
-    std::int32_t Second, Third, Index;
-  };
-  std::vector<Entry> entries(triangles.size());
-  std::vector<std::int32_t> next(start.begin(), start.end() - 1);
-  for (std::size_t i = 0; i < triangles.size(); ++i)
-  {
-    const Triangle t = rotated(static_cast<std::int32_t>(i));
-    entries[next[t[0]]++] = { t[1], t[2], static_cast<std::int32_t>(i) };
-  }
-  const auto sameCorners = [](const Entry& a, const Entry& b) {
-    return a.Second == b.Second && a.Third == b.Third;
-  };
-  std::vector<bool> drop(triangles.size(), false);
-  for (std::size_t bin = 0; bin + 1 < start.size(); ++bin)
-  {
-    const auto first = entries.begin() + start[bin];
-    const auto last = entries.begin() + start[bin + 1];
-    std::sort(first, last, [](const Entry& a, const Entry& b) {
-      return std::tie(a.Second, a.Third, a.Index) < std::tie(b.Second, b.Third, b.Index);
-    });
-    for (auto entry = first; entry != last; ++entry)
-    {
-      drop[entry->Index] = entry != first && sameCorners(*(entry - 1), *entry);
-    }
-  }
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < triangles.size(); ++i)
-  {
-    if (!drop[i])
-    {
-      triangles[kept] = triangles[i];
-      this->Cleaned.OriginalCell[kept] = this->Cleaned.OriginalCell[i];
-      ++kept;
-    }
-  }
-  this->Cleaned.Report.DuplicateTriangles = static_cast<std::int64_t>(triangles.size() - kept);
-  triangles.resize(kept);
-  this->Cleaned.OriginalCell.resize(kept);
 }
 
 void Cleaner::DropUnusedPoints()
@@ -450,15 +390,17 @@ CleaningResult Cleaner::Run()
   {
     return this->Stopped ? CleaningResult::Aborted : CleaningResult::Failed;
   }
-  this->DropDuplicates();
+  this->Cleaned.Report.DuplicateTriangles = DropDuplicateTriangles(
+    this->Cleaned.Mesh.Triangles, this->Cleaned.OriginalCell, this->Cleaned.Mesh.Points.size());
   this->DropUnusedPoints();
   const CleaningReport& report = this->Cleaned.Report;
   if (this->Cleaned.Mesh.Triangles.empty())
   {
     std::ostringstream text;
     text << "None of the " << this->Input->GetNumberOfPolys() << " polygons and "
-         << this->Input->GetNumberOfStrips() << " strips has an area: "
-         << report.DegenerateTriangles << " pieces have none, " << report.GhostCells
+         << this->Input->GetNumberOfStrips()
+         << " strips has an area: " << report.DegenerateTriangles << " pieces have none, "
+         << report.GhostCells
          << " cells are ghosts or blanked. Check the coordinates of the source, and the merge "
             "tolerance ("
          << this->Options.MergeTolerance

@@ -17,7 +17,7 @@ struct Facet
   Vector Corner[3];   ///< as given; Corner[Anchor] is the one opposite the longest edge
   Vector Normal{ 0 }; ///< unit; zero when the triangle has no area
   double LongestEdge = 0.0;
-  /// |e1||e2| / |e1 × e2| at the anchor, at least 1: how many times rounding is amplified.
+  /// At least |e1||e2| / |e1 × e2| at the anchor: how many times rounding is amplified.
   double Condition = HUGE_VAL;
   int Anchor = 0;
 
@@ -26,19 +26,20 @@ struct Facet
   {
     const double squared[3] = { SquaredLength(c - b), SquaredLength(a - c), SquaredLength(b - a) };
     // By the law of sines the angle opposite the longest edge has the largest sine.
-    this->Anchor = static_cast<int>(std::max_element(squared, squared + 3) - squared);
+    this->Anchor = squared[0] >= squared[1] ? (squared[0] >= squared[2] ? 0 : 2)
+                                            : (squared[1] >= squared[2] ? 1 : 2);
     this->LongestEdge = std::sqrt(squared[this->Anchor]);
+    const int next = (this->Anchor + 1) % 3;
+    const int last = (this->Anchor + 2) % 3;
     const Vector& v = this->Corner[this->Anchor];
-    // Scaled to the size of 1, so that a tiny triangle does not underflow.
-    const double scale = 1.0 / this->LongestEdge;
-    const Vector e1 = (this->Corner[(this->Anchor + 1) % 3] - v) * scale;
-    const Vector e2 = (this->Corner[(this->Anchor + 2) % 3] - v) * scale;
-    const Vector n = glm::cross(e1, e2);
-    const double length = glm::length(n);
-    if (std::isfinite(scale) && length > 0.0)
+    const Vector n = glm::cross(this->Corner[next] - v, this->Corner[last] - v);
+    const double squaredLength = SquaredLength(n);
+    if (squaredLength > 0.0)
     {
-      this->Normal = n / length;
-      this->Condition = std::sqrt(SquaredLength(e1) * SquaredLength(e2)) / length;
+      const double inverse = 1.0 / std::sqrt(squaredLength);
+      this->Normal = inverse * n;
+      // The mean of the squared sides is at least their product, and needs no root.
+      this->Condition = 0.5 * (squared[next] + squared[last]) * inverse;
     }
   }
 

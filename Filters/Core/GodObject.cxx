@@ -18,8 +18,6 @@ constexpr int LargestNumberOfCasts = 12;
 constexpr int LargestNumberOfHalvings = 6;
 /// Triangles looked up in one update, all passes and surfaces together: a few hundred in practice.
 constexpr std::int64_t LargestNumberOfTriangles = 1 << 15;
-/// Farther out, squares would leave the range of float64.
-constexpr double FarthestHip = 1e100;
 
 /// Each cast makes at most one motion.
 constexpr int LargestWay = LargestNumberOfPasses * LargestNumberOfCasts + 1;
@@ -213,7 +211,7 @@ const Contact& GodObject::Update(const Vec3& hip) noexcept
   Implementation& god = *this->Internal;
   Contact& result = god.Result;
   const bool isValid = std::all_of(
-    hip.begin(), hip.end(), [](double x) { return std::abs(x) < FarthestHip; }); // false for NaN
+    hip.begin(), hip.end(), [](double x) { return std::abs(x) < LargestCoordinate; }); // false for NaN
   if (!isValid)
   {
     result.Status = UpdateStatus::InvalidHip;

@@ -24,10 +24,11 @@ std::string FindFault(const TriangleMesh& mesh, const SurfaceOptions& options)
   for (std::size_t i = 0; i < mesh.Points.size(); ++i)
   {
     const Vec3& p = mesh.Points[i];
-    // The bound keeps products of three coordinates finite.
-    if (!(std::abs(p[0]) < 1e100 && std::abs(p[1]) < 1e100 && std::abs(p[2]) < 1e100))
+    // Not less is also how NaN answers.
+    if (!(std::abs(p[0]) < LargestCoordinate && std::abs(p[1]) < LargestCoordinate &&
+          std::abs(p[2]) < LargestCoordinate))
     {
-      return "point " + std::to_string(i) + " is not finite, or beyond 1e100";
+      return "point " + std::to_string(i) + " is not finite, or beyond 1e70";
     }
   }
   for (std::size_t i = 0; i < mesh.Triangles.size(); ++i)
