@@ -20,7 +20,8 @@ public:
   /// with equal float64 coordinates.
   PointMerger(std::size_t expectedPoints, double tolerance);
 
-  /// Index of the kept point that stands for the finite `point`: Points().size() - 1 where it is new.
+  /// Index of the kept point that stands for the finite `point`: Points().size() - 1 where it is
+  /// new.
   std::int32_t Insert(const Vec3& point);
   const std::vector<Vec3>& Points() const { return this->Kept; }
 

@@ -94,8 +94,8 @@ int PolygonSplitter::Turn(int a, int b, int c) const
   return SignOfDifference(q.X - p.X, r.Y - p.Y, q.Y - p.Y, r.X - p.X);
 }
 
-/// Whether the closed triangle holds the point. A point that coincides with a corner, as the ends of
-/// a bridge to a hole do, is none in the way.
+/// Whether the closed triangle holds the point. A point that coincides with a corner, as the ends
+/// of a bridge to a hole do, is none in the way.
 bool PolygonSplitter::Holds(int a, int b, int c, int point) const
 {
   const Corner& p = this->Corners[point];
@@ -116,7 +116,8 @@ void PolygonSplitter::Judge(int corner, const std::vector<Vec3>& corners)
   tip.Diagonal = SquaredNorm(Minus(corners[tip.Next], corners[tip.Previous]));
   tip.Ear = tip.Turn > 0;
   // Only corners that are not convex can lie inside an ear.
-  for (int i = this->Corners[tip.Next].Next; tip.Ear && i != tip.Previous; i = this->Corners[i].Next)
+  for (int i = this->Corners[tip.Next].Next; tip.Ear && i != tip.Previous;
+       i = this->Corners[i].Next)
   {
     tip.Ear = this->Corners[i].Turn > 0 || !this->Holds(tip.Previous, corner, tip.Next, i);
   }
@@ -179,7 +180,8 @@ PolygonSplitter::Result PolygonSplitter::Split(const std::vector<Vec3>& corners)
   {
     this->Corners[i].Turn = this->Turn(this->Corners[i].Previous, i, this->Corners[i].Next);
   }
-  const auto judgeAll = [&]() {
+  const auto judgeAll = [&]()
+  {
     int i = this->First;
     do
     {

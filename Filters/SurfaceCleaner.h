@@ -16,8 +16,8 @@ namespace haptics
 {
 struct CleaningOptions
 {
-  double MergeTolerance = 0.0;     ///< finite, >= 0
-  bool AbsoluteTolerance = false;  ///< in world units; otherwise a fraction of the bounds' diagonal
+  double MergeTolerance = 0.0;    ///< finite, >= 0
+  bool AbsoluteTolerance = false; ///< in world units; otherwise a fraction of the bounds' diagonal
 };
 
 /// What was found and mended on the way from cells to clean triangles.
@@ -26,9 +26,9 @@ struct CleaningReport
   std::int64_t MergedPoints = 0;        ///< points that another one now stands for
   std::int64_t UnusedPoints = 0;        ///< points of no remaining triangle
   std::int64_t DegenerateTriangles = 0; ///< without area, dropped
-  std::int64_t DuplicateTriangles = 0;  ///< equal corners and orientation, all but the first dropped
-  std::int64_t FoldedPolygons = 0;      ///< crossing themselves, split into a fan
-  std::int64_t GhostCells = 0;          ///< ghosts and blanked cells, dropped
+  std::int64_t DuplicateTriangles = 0; ///< equal corners and orientation, all but the first dropped
+  std::int64_t FoldedPolygons = 0;     ///< crossing themselves, split into a fan
+  std::int64_t GhostCells = 0;         ///< ghosts and blanked cells, dropped
   vtkIdType FirstFoldedCell = -1;
 };
 

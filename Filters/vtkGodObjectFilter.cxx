@@ -1,11 +1,12 @@
 #include "vtkGodObjectFilter.h"
 
+#include "BuildKey.h"
+#include "PassAttributes.h"
 #include "SurfaceCleaner.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
-#include "vtkIdList.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -16,60 +17,13 @@
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 #include "vtkStringArray.h"
-#include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 #include <vector>
 
 namespace
 {
-/// What a surface depends on. Equal keys mean that nothing has to be rebuilt.
-struct BuildKey
-{
-  std::vector<const void*> Objects;
-  std::vector<vtkMTimeType> Times; // never the same for two states, whatever memory is used again
-  std::vector<vtkIdType> Sizes;
-  std::vector<double> Properties; // by value: SetInputData() and others touch the filter's MTime too
-
-  bool operator==(const BuildKey& other) const
-  {
-    return this->Objects == other.Objects && this->Times == other.Times &&
-      this->Sizes == other.Sizes && this->Properties == other.Properties;
-  }
-
-  void Add(vtkObject* object)
-  {
-    this->Objects.push_back(object);
-    this->Times.push_back(object ? object->GetMTime() : 0);
-  }
-
-  void AddCells(vtkCellArray* cells)
-  {
-    this->Add(cells);
-    this->Add(cells->GetOffsetsArray());
-    this->Add(cells->GetConnectivityArray());
-    this->Sizes.push_back(cells->GetNumberOfCells());
-    this->Sizes.push_back(cells->GetNumberOfConnectivityIds());
-  }
-};
-
-BuildKey MakeKey(vtkPolyData* input, std::vector<double> properties)
-{
-  BuildKey key;
-  key.Properties = std::move(properties);
-  key.Add(input->GetPoints());
-  key.AddCells(input->GetPolys());
-  key.AddCells(input->GetStrips());
-  key.Add(input->GetCellGhostArray());
-  // Verts and lines come first in the numbering of the cells.
-  key.Sizes.push_back(input->GetNumberOfVerts());
-  key.Sizes.push_back(input->GetNumberOfLines());
-  key.Sizes.push_back(input->GetNumberOfPoints());
-  return key;
-}
-
 vtkSmartPointer<vtkIdTypeArray> MakeIdArray(const char* name, const std::vector<vtkIdType>& ids)
 {
   auto array = vtkSmartPointer<vtkIdTypeArray>::New();
@@ -109,54 +63,12 @@ vtkSmartPointer<vtkCellArray> MakeCells(const haptics::TriangleMesh& mesh)
   cells->SetData(offsets, connectivity);
   return cells;
 }
-
-/// Gives `to` the attributes of `from`, tuple `ids[i]` becoming tuple i. Returns how many arrays were
-/// left out, having too few tuples for their elements.
-int PassAttributes(
-  vtkDataSetAttributes* from, vtkIdType elements, vtkIdTypeArray* ids, vtkDataSetAttributes* to)
-{
-  vtkSmartPointer<vtkDataSetAttributes> whole = vtk::TakeSmartPointer(from->NewInstance());
-  whole->ShallowCopy(from);
-  int dropped = 0;
-  for (int i = whole->GetNumberOfArrays() - 1; i >= 0; --i)
-  {
-    if (whole->GetAbstractArray(i)->GetNumberOfTuples() < elements)
-    {
-      whole->RemoveArray(i);
-      ++dropped;
-    }
-  }
-  const vtkIdType count = ids->GetNumberOfValues();
-  bool unchanged = count == elements;
-  for (vtkIdType i = 0; unchanged && i < count; ++i)
-  {
-    unchanged = ids->GetValue(i) == i;
-  }
-  if (unchanged)
-  {
-    to->PassData(whole);
-  }
-  else if (whole->GetNumberOfArrays() > 0)
-  {
-    vtkNew<vtkIdList> sources;
-    sources->SetNumberOfIds(count);
-    std::copy_n(ids->GetPointer(0), count, sources->GetPointer(0));
-    // VTK 9.1 copies a list of elements only to a list of destinations.
-    vtkNew<vtkIdList> destinations;
-    destinations->SetNumberOfIds(count);
-    std::iota(destinations->GetPointer(0), destinations->GetPointer(0) + count, vtkIdType{ 0 });
-    to->CopyAllocate(whole, count);
-    to->CopyData(whole, sources, destinations);
-  }
-  to->AddArray(ids);
-  return dropped;
-}
 }
 
 class vtkGodObjectFilter::vtkInternals
 {
 public:
-  BuildKey Key;
+  haptics::BuildKey Key;
   std::shared_ptr<const haptics::TriangleSurface> Surface;
   haptics::CleaningReport Report;
   double CrackWidth = 0.0;
@@ -177,7 +89,8 @@ vtkGodObjectFilter::~vtkGodObjectFilter() = default;
 
 int vtkGodObjectFilter::FillInputPortInformation(int port, vtkInformation* info)
 {
-  // Optional, so that a missing input reaches RequestData and does not leave the last surface there.
+  // Optional, so that a missing input reaches RequestData and does not leave the last surface
+  // there.
   info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
   return this->Superclass::FillInputPortInformation(port, info);
 }
@@ -190,7 +103,8 @@ bool vtkGodObjectFilter::Build(vtkPolyData* input)
   const haptics::CleaningOptions cleaning{ this->MergeTolerance, this->MergeToleranceIsAbsolute };
   const haptics::CleaningResult result = haptics::CleanSurface(
     input, cleaning,
-    [this](double fraction) {
+    [this](double fraction)
+    {
       this->UpdateProgress(fraction);
       return !this->GetAbortExecute();
     },
@@ -250,7 +164,7 @@ int vtkGodObjectFilter::RequestData(
     vtkErrorMacro("There is no input to touch. Connect a vtkPolyData with polygons or strips.");
     return 1;
   }
-  BuildKey key = MakeKey(input,
+  haptics::BuildKey key = haptics::MakeBuildKey(input,
     { static_cast<double>(this->Side), static_cast<double>(this->Engine), this->MergeTolerance,
       this->MergeToleranceIsAbsolute ? 1.0 : 0.0, this->AutomaticCrackWidth ? 1.0 : 0.0,
       this->CrackWidth });
@@ -267,10 +181,10 @@ int vtkGodObjectFilter::RequestData(
   }
   output->SetPoints(built.Points);
   output->SetPolys(built.Triangles);
-  const int dropped = PassAttributes(input->GetPointData(), input->GetNumberOfPoints(),
+  const int dropped = haptics::PassAttributes(input->GetPointData(), input->GetNumberOfPoints(),
                         built.OriginalPoints, output->GetPointData()) +
-    PassAttributes(input->GetCellData(), input->GetNumberOfCells(), built.OriginalCells,
-      output->GetCellData());
+    haptics::PassAttributes(
+      input->GetCellData(), input->GetNumberOfCells(), built.OriginalCells, output->GetCellData());
   if (dropped > 0)
   {
     vtkWarningMacro(<< dropped << " data arrays of the input are shorter than its points or cells, "
@@ -284,7 +198,8 @@ int vtkGodObjectFilter::RequestData(
 void vtkGodObjectFilter::AddReport(vtkPolyData* output) const
 {
   vtkFieldData* fields = output->GetFieldData();
-  const auto add = [fields](const char* name, vtkIdType value) {
+  const auto add = [fields](const char* name, vtkIdType value)
+  {
     vtkNew<vtkIdTypeArray> array;
     array->SetName(name);
     array->InsertNextValue(value);

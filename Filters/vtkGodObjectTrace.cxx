@@ -41,16 +41,16 @@ vtkSmartPointer<Array> NewArray(const char* name, int components, vtkIdType tupl
 /// The constraint that pushes most against the HIP, of those of a touching contact.
 const haptics::Constraint& StrongestConstraint(const haptics::Contact& contact)
 {
-  const auto push = [&contact](const haptics::Constraint& constraint) {
+  const auto push = [&contact](const haptics::Constraint& constraint)
+  {
     const haptics::Vec3& n = constraint.Normal;
     const haptics::Vec3& d = contact.Displacement;
     return n[0] * d[0] + n[1] * d[1] + n[2] * d[2];
   };
   return *std::max_element(contact.Constraints.begin(),
     contact.Constraints.begin() + contact.NumberOfConstraints,
-    [&push](const haptics::Constraint& a, const haptics::Constraint& b) {
-      return push(a) < push(b);
-    });
+    [&push](const haptics::Constraint& a, const haptics::Constraint& b)
+    { return push(a) < push(b); });
 }
 
 /// The vtkGodObjectFilter whose output reaches the port unchanged, or null. ParaView puts a
@@ -58,8 +58,8 @@ const haptics::Constraint& StrongestConstraint(const haptics::Contact& contact)
 vtkGodObjectFilter* FindPreparation(vtkAlgorithm* consumer, int port)
 {
   vtkAlgorithm* producer = consumer->GetInputAlgorithm(port, 0);
-  while (producer && producer->IsA("vtkPVPostFilter") &&
-    producer->GetNumberOfInputConnections(0) > 0)
+  while (
+    producer && producer->IsA("vtkPVPostFilter") && producer->GetNumberOfInputConnections(0) > 0)
   {
     producer = producer->GetInputAlgorithm(0, 0);
   }
@@ -232,14 +232,16 @@ void vtkGodObjectTrace::Replay(vtkPolyData* path, vtkGodObjectFilter* prepared, 
     hips->SetTypedTuple(i, hip.data());
     forces->SetTypedTuple(i, model.Force(displacement).data());
     constraints->SetValue(i, contact.NumberOfConstraints);
-    cells->SetValue(i, contact.NumberOfConstraints > 0
+    cells->SetValue(i,
+      contact.NumberOfConstraints > 0
         ? originalCells->GetValue(StrongestConstraint(contact).Triangle)
         : -1);
     penetrations->SetValue(i, contact.Penetration);
   }
   if (heldTicks > 0)
   {
-    vtkWarningMacro(<< heldTicks << " of " << ticks << " ticks met more triangles in one place than "
+    vtkWarningMacro(<< heldTicks << " of " << ticks
+                    << " ticks met more triangles in one place than "
                     << "a tick may look at; the god-object waited there.");
   }
   if (refusedTicks > 0)

@@ -3,10 +3,10 @@
  * @brief   replays a path of haptic interface points over a surface, without a device
  *
  * Port 0: a vtkPolyData whose points, in the order of their ids, are the positions of the haptic
- * interface point (HIP), one a servo tick [world]. Its cells are not looked at. Port 1: the surface,
- * any vtkPolyData. Where that comes from a vtkGodObjectFilter, its surface is used as it is,
- * with that filter's side and engine; otherwise a vtkGodObjectFilter inside prepares it, with the
- * properties of this class.
+ * interface point (HIP), one a servo tick [world]. Its cells are not looked at. Port 1: the
+ * surface, any vtkPolyData. Where that comes from a vtkGodObjectFilter, its surface is used as it
+ * is, with that filter's side and engine; otherwise a vtkGodObjectFilter inside prepares it, with
+ * the properties of this class.
  *
  * The output is the polyline of the god-object [world], one point for each HIP, with the point data
  * of the path (such as `Time` [s]) and:
@@ -22,8 +22,8 @@
  * give the same output, bit for bit.
  *
  * Errors: a missing or empty path, a path point that is not finite, and all errors of
- * vtkGodObjectFilter give an error that says where and what to do, and an empty output. Not for live
- * devices: see vtkHapticServo.
+ * vtkGodObjectFilter give an error that says where and what to do, and an empty output. Not for
+ * live devices: see vtkHapticServo.
  *
  * All methods are for the GUI thread.
  *

@@ -72,18 +72,20 @@ Parts Cube()
 
 double Area(vtkPolyData* triangles)
 {
-  return SumOverTriangles(triangles, [](const double* a, const double* b, const double* c) {
-    return vtkTriangle::TriangleArea(a, b, c);
-  });
+  return SumOverTriangles(triangles,
+    [](const double* a, const double* b, const double* c)
+    { return vtkTriangle::TriangleArea(a, b, c); });
 }
 
 double Volume(vtkPolyData* triangles)
 {
-  return SumOverTriangles(triangles, [](const double* a, const double* b, const double* c) {
-    return (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
-             a[2] * (b[0] * c[1] - b[1] * c[0])) /
-      6.0;
-  });
+  return SumOverTriangles(triangles,
+    [](const double* a, const double* b, const double* c)
+    {
+      return (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+               a[2] * (b[0] * c[1] - b[1] * c[0])) /
+        6.0;
+    });
 }
 
 class MessageCatcher::Observer : public vtkCommand

@@ -42,8 +42,8 @@ vtkIdType FieldValue(vtkGodObjectFilter* filter, const char* name)
   return array ? static_cast<vtkIdType>(array->GetTuple1(0)) : -1;
 }
 
-const Parts Square{ { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } }, { { 0, 1, 2, 3 } }, {}, {},
-  {} };
+const Parts Square{ { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } }, { { 0, 1, 2, 3 } }, {},
+  {}, {} };
 }
 
 TEST(GodObjectFilter, MakesTrianglesOfAClosedCubeOfQuads)
@@ -129,8 +129,9 @@ TEST(GodObjectFilter, CarriesCellDataThroughMixedCells)
 TEST(GodObjectFilter, CarriesPointDataThroughMergedAndUnusedPoints)
 {
   Parts parts = Square;
-  parts.Points.insert(parts.Points.begin(), { 9, 9, 9 });                     // unused
-  parts.Points.insert(parts.Points.end(), { { 1, 0, 0 }, { 2, 0, 0 }, { 1, 1, 0 } }); // 5 is 2, 7 is 3
+  parts.Points.insert(parts.Points.begin(), { 9, 9, 9 }); // unused
+  parts.Points.insert(
+    parts.Points.end(), { { 1, 0, 0 }, { 2, 0, 0 }, { 1, 1, 0 } }); // 5 is 2, 7 is 3
   parts.Polys = { { 1, 2, 3, 4 }, { 5, 6, 7 } };
   auto input = MakePolyData(parts);
   vtkNew<vtkDoubleArray> height;
@@ -242,8 +243,8 @@ TEST(GodObjectFilter, DropsDuplicatesButKeepsTheOtherSide)
   parts.Polys = { { 0, 1, 2 }, { 1, 2, 0 }, { 0, 2, 1 }, { 0, 2, 3 } };
   auto filter = Prepare(MakePolyData(parts));
   EXPECT_EQ(filter->GetNumberOfDuplicateTriangles(), 1);
-  EXPECT_EQ(Ids(filter->GetOutput()->GetCellData(), "OriginalCellId"),
-    (std::vector<vtkIdType>{ 0, 2, 3 }));
+  EXPECT_EQ(
+    Ids(filter->GetOutput()->GetCellData(), "OriginalCellId"), (std::vector<vtkIdType>{ 0, 2, 3 }));
 }
 
 TEST(GodObjectFilter, TellsOfPolygonsThatCrossThemselves)

@@ -21,9 +21,8 @@ namespace
 /// Two triangles from (-1,-1,0) to (1,1,0), seen from above; cell 0 has x > y.
 vtkSmartPointer<vtkPolyData> Plane()
 {
-  return MakePolyData(
-    { { { -1, -1, 0 }, { 1, -1, 0 }, { 1, 1, 0 }, { -1, 1, 0 } }, { { 0, 1, 2 }, { 0, 2, 3 } }, {}, {},
-      {} });
+  return MakePolyData({ { { -1, -1, 0 }, { 1, -1, 0 }, { 1, 1, 0 }, { -1, 1, 0 } },
+    { { 0, 1, 2 }, { 0, 2, 3 } }, {}, {}, {} });
 }
 
 /// From one position to another in steps, both included.
@@ -185,8 +184,7 @@ TEST(GodObjectTrace, GivesTheSameBitsTwice)
   bool touched = false;
   for (vtkIdType i = 0; i < traces[0]->GetOutput()->GetNumberOfPoints(); ++i)
   {
-    EXPECT_EQ(
-      Tuple(traces[0]->GetOutput(), "Force", i), Tuple(traces[1]->GetOutput(), "Force", i));
+    EXPECT_EQ(Tuple(traces[0]->GetOutput(), "Force", i), Tuple(traces[1]->GetOutput(), "Force", i));
     touched = touched || Value(traces[0]->GetOutput(), "ActiveConstraints", i) > 0;
   }
   EXPECT_TRUE(touched);

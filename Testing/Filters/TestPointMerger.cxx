@@ -64,8 +64,8 @@ TEST(PointMerger, AgreesWithALookAtAllPointsWithinATolerance)
     double limit = tolerance;
     for (std::size_t k = 0; k < kept.size(); ++k)
     {
-      const double distance = std::hypot(
-        kept[k][0] - point[0], kept[k][1] - point[1], kept[k][2] - point[2]);
+      const double distance =
+        std::hypot(kept[k][0] - point[0], kept[k][1] - point[1], kept[k][2] - point[2]);
       if (distance < limit)
       {
         limit = distance;

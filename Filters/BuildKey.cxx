@@ -1,0 +1,45 @@
+#include "BuildKey.h"
+
+#include "vtkCellArray.h"
+#include "vtkDataArray.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <utility>
+
+namespace haptics
+{
+namespace
+{
+void Add(BuildKey& key, vtkObject* object)
+{
+  key.Objects.push_back(object);
+  key.Times.push_back(object ? object->GetMTime() : 0);
+}
+
+void AddCells(BuildKey& key, vtkCellArray* cells)
+{
+  Add(key, cells);
+  Add(key, cells->GetOffsetsArray());
+  Add(key, cells->GetConnectivityArray());
+  key.Sizes.push_back(cells->GetNumberOfCells());
+  key.Sizes.push_back(cells->GetNumberOfConnectivityIds());
+}
+}
+
+BuildKey MakeBuildKey(vtkPolyData* input, std::vector<double> properties)
+{
+  BuildKey key;
+  key.Properties = std::move(properties);
+  Add(key, input->GetPoints());
+  AddCells(key, input->GetPolys());
+  AddCells(key, input->GetStrips());
+  Add(key, input->GetCellGhostArray());
+  // Verts and lines come first in the numbering of the cells.
+  key.Sizes.push_back(input->GetNumberOfVerts());
+  key.Sizes.push_back(input->GetNumberOfLines());
+  key.Sizes.push_back(input->GetNumberOfPoints());
+  return key;
+}
+}

@@ -1,0 +1,32 @@
+#ifndef BuildKey_h
+#define BuildKey_h
+
+#include "vtkType.h"
+
+#include <vector>
+
+class vtkPolyData;
+
+namespace haptics
+{
+/// What a surface depends on. Equal keys mean that nothing has to be rebuilt.
+struct BuildKey
+{
+  std::vector<const void*> Objects;
+  std::vector<vtkMTimeType> Times; // never the same for two states, whatever memory is used again
+  std::vector<vtkIdType> Sizes;
+  std::vector<double>
+    Properties; // by value: SetInputData() and others touch the filter's MTime too
+
+  bool operator==(const BuildKey& other) const
+  {
+    return this->Objects == other.Objects && this->Times == other.Times &&
+      this->Sizes == other.Sizes && this->Properties == other.Properties;
+  }
+};
+
+/// The key of `input` and the values of the filter's properties. Does not look at a coordinate.
+BuildKey MakeBuildKey(vtkPolyData* input, std::vector<double> properties);
+}
+
+#endif
