@@ -31,6 +31,12 @@ struct VTKHAPTICSINTERACTORS_EXPORT WorkspaceTransform
   Vec3 VectorToDevice(const Vec3& vector) const noexcept;
   /// A device vector along the world's axes, its length kept: for forces [N].
   Vec3 DirectionToWorld(const Vec3& vector) const noexcept;
+
+  bool operator!=(const WorkspaceTransform& other) const noexcept
+  {
+    return this->Rotation != other.Rotation || this->Scale != other.Scale ||
+      this->Translation != other.Translation;
+  }
 };
 }
 

@@ -141,14 +141,19 @@ bool vtkHapticServo::SetWorkspaceTransform(vtkMatrix4x4* deviceToWorld)
     vtkErrorMacro("The workspace transform is null; the last one stays.");
     return false;
   }
+  haptics::WorkspaceTransform transform;
   std::string error;
-  if (!this->Internal->Settings.DeviceToWorld.SetMatrix(deviceToWorld->GetData(), error))
+  if (!transform.SetMatrix(deviceToWorld->GetData(), error))
   {
     vtkErrorMacro(<< error << " The last one stays.");
     return false;
   }
-  this->PlaceGodObject();
-  this->Modified();
+  if (transform != this->Internal->Settings.DeviceToWorld)
+  {
+    this->Internal->Settings.DeviceToWorld = transform;
+    this->PlaceGodObject();
+    this->Modified();
+  }
   return true;
 }
 

@@ -121,7 +121,7 @@ public:
   /**
    * Device frame [m] to world frame: rotation, uniform scale, translation. Default the identity.
    * Any other matrix (a mirror, a shear, not finite, null) is an error, changes nothing and returns
-   * false. At the next tick the god-object starts anew at the HIP, so that no jump is felt.
+   * false. After a change the god-object starts anew at the HIP, so that no jump is felt.
    */
   bool SetWorkspaceTransform(vtkMatrix4x4* deviceToWorld);
   void GetWorkspaceTransform(vtkMatrix4x4* deviceToWorld);

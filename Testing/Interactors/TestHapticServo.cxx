@@ -262,6 +262,27 @@ TEST_F(HapticServo, MovesTheHandThroughTheWorkspaceTransform)
   EXPECT_NEAR(back->GetElement(2, 2), 1000.0, 1e-9);
 }
 
+TEST_F(HapticServo, StartsAnewAtTheHipOnlyWhenTheWorkspaceTransformHasChanged)
+{
+  ASSERT_EQ(this->Servo->Step(1000), 1000);
+  vtkNew<vtkMatrix4x4> matrix;
+  ASSERT_TRUE(this->Servo->SetWorkspaceTransform(matrix)); // the identity, as it was
+  ASSERT_EQ(this->Servo->Step(1), 1);
+  EXPECT_NEAR(this->DeviceForce(), 1.0, 2e-3);
+  matrix->SetElement(2, 3, -0.01);
+  ASSERT_TRUE(this->Servo->SetWorkspaceTransform(matrix));
+  ASSERT_EQ(this->Servo->Step(1), 1);
+  EXPECT_EQ(this->DeviceForce(), 0.0) << "12 mm below the plane, but no jump";
+}
+
+TEST_F(HapticServo, StartsAnewAtTheHipWhenAsked)
+{
+  ASSERT_EQ(this->Servo->Step(1000), 1000);
+  this->Servo->PlaceGodObject();
+  ASSERT_EQ(this->Servo->Step(1), 1);
+  EXPECT_EQ(this->DeviceForce(), 0.0);
+}
+
 TEST_F(HapticServo, DoesNotStartWithoutAnOpenDevice)
 {
   vtkNew<vtkHapticServo> servo;
