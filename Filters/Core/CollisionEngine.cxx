@@ -3,8 +3,20 @@
 #include "BruteForceEngine.h"
 #include "EmbreeEngine.h"
 
+#include <atomic>
+
 namespace haptics
 {
+namespace
+{
+std::atomic<EngineFactory> ExactEngineFactory{ nullptr };
+}
+
+void SetExactEngineFactory(EngineFactory factory)
+{
+  ExactEngineFactory = factory;
+}
+
 std::unique_ptr<CollisionEngine> MakeEngine(EngineKind kind, const EngineInput& input)
 {
   // Where a scan of all bounds and a descent of the tree take the same time.
@@ -19,6 +31,10 @@ std::unique_ptr<CollisionEngine> MakeEngine(EngineKind kind, const EngineInput& 
     case EngineKind::Embree:
       return MakeEmbreeEngine(input);
     case EngineKind::Exact:
+      if (const EngineFactory make = ExactEngineFactory)
+      {
+        return make(input);
+      }
       break;
   }
   return nullptr;

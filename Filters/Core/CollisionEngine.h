@@ -18,7 +18,7 @@ enum class EngineKind
   Automatic,  ///< BruteForce on a surface of few triangles, else Embree
   BruteForce, ///< looks at every triangle: the reference, and the fastest on tiny surfaces
   Embree,     ///< Intel Embree's bounding volume hierarchy
-  Exact       ///< CGAL's tree: the oracle; only in builds with the optional GPL part
+  Exact       ///< CGAL's tree: the oracle; only where HapticsExactEngineGPL is loaded
 };
 
 /// A fixed list of triangle indices, filled by an engine. Never allocates.
@@ -73,9 +73,13 @@ struct EngineInput
   double Margin; ///< FindOnSegment thickens its segment by this
 };
 
-/// Makes an engine, or returns null when this build does not have it. Automatic picks by size.
+/// Makes an engine, or returns null when it is not there or memory ran out. Automatic picks by size.
 VTKHAPTICSCORE_EXPORT std::unique_ptr<CollisionEngine> MakeEngine(
   EngineKind kind, const EngineInput& input);
+
+/// Says what EngineKind::Exact makes. Called by the optional GPL library, which alone has it.
+using EngineFactory = std::unique_ptr<CollisionEngine> (*)(const EngineInput& input);
+VTKHAPTICSCORE_EXPORT void SetExactEngineFactory(EngineFactory factory);
 }
 
 #endif

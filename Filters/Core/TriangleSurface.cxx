@@ -118,7 +118,9 @@ std::shared_ptr<const TriangleSurface> TriangleSurface::Build(
   surface->Collision = MakeEngine(options.Engine, input);
   if (!surface->Collision)
   {
-    error = "this build has no such collision engine";
+    error = options.Engine == EngineKind::Exact
+      ? "the exact engine is in the library HapticsExactEngineGPL, which is not loaded"
+      : "memory ran out while the collision engine was built";
     return nullptr;
   }
   return surface;

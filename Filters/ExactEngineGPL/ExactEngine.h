@@ -1,0 +1,13 @@
+#ifndef ExactEngine_h
+#define ExactEngine_h
+
+namespace haptics
+{
+/// Makes EngineKind::Exact available in this process: CGAL's AABB tree with exact comparisons of
+/// float64 boxes, slower than Embree and free of its float32. Any thread, once.
+///
+/// This library links a part of CGAL that is under the GPL: so is every program that links it.
+void EnableExactEngine();
+}
+
+#endif
