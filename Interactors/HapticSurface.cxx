@@ -167,8 +167,7 @@ bool HapticSurface::Build(std::string& error)
 void HapticSurface::KeepCellIds()
 {
   auto ids = std::make_shared<std::vector<vtkIdType>>();
-  vtkDataArray* array =
-    this->Preparation->GetOutput()->GetCellData()->GetArray("OriginalCellId");
+  vtkDataArray* array = this->Preparation->GetOutput()->GetCellData()->GetArray("OriginalCellId");
   const vtkIdType count = array ? array->GetNumberOfTuples() : 0;
   ids->reserve(static_cast<std::size_t>(count));
   if (vtkIdTypeArray* exact = vtkIdTypeArray::SafeDownCast(array))

@@ -95,8 +95,7 @@ void SurfaceSet::Published(std::uint64_t generation)
 
 void SurfaceSet::Forget(std::uint64_t generation)
 {
-  this->Generations.erase(
-    this->Generations.begin(), this->Generations.lower_bound(generation));
+  this->Generations.erase(this->Generations.begin(), this->Generations.lower_bound(generation));
 }
 
 SceneCell SurfaceSet::Locate(const TickRecord& tick) const

@@ -17,8 +17,8 @@ namespace haptics
 namespace
 {
 template <class Array, class Value>
-void AddScalar(
-  vtkPolyData* trace, const char* name, const std::vector<TraceTick>& ticks, Value TraceTick::*member)
+void AddScalar(vtkPolyData* trace, const char* name, const std::vector<TraceTick>& ticks,
+  Value TraceTick::*member)
 {
   vtkNew<Array> array;
   array->SetName(name);
@@ -63,11 +63,9 @@ void TraceRecorder::Write(vtkPolyData* trace) const
     trace->SetLines(lines);
   }
   AddScalar<vtkDoubleArray>(trace, "Time", this->Ticks, &TraceTick::Time);
-  trace->GetPointData()->AddArray(
-    Vectors("HapticInterfacePoint", this->Ticks, &TraceTick::Hip));
+  trace->GetPointData()->AddArray(Vectors("HapticInterfacePoint", this->Ticks, &TraceTick::Hip));
   trace->GetPointData()->AddArray(Vectors("Force", this->Ticks, &TraceTick::Force));
-  AddScalar<vtkIntArray>(
-    trace, "ActiveConstraints", this->Ticks, &TraceTick::ActiveConstraints);
+  AddScalar<vtkIntArray>(trace, "ActiveConstraints", this->Ticks, &TraceTick::ActiveConstraints);
   AddScalar<vtkIntArray>(trace, "Surface", this->Ticks, &TraceTick::Surface);
   AddScalar<vtkIdTypeArray>(trace, "OriginalCellId", this->Ticks, &TraceTick::Cell);
   AddScalar<vtkDoubleArray>(trace, "Penetration", this->Ticks, &TraceTick::Penetration);

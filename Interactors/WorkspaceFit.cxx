@@ -35,7 +35,8 @@ bool FitWorkspace(const double workspace[6], const double world[6], vtkCamera* c
 {
   if (!IsBox(workspace) || !IsBox(world))
   {
-    error = IsBox(world) ? "the device's workspace is no finite box" : "the bounds are no finite box";
+    error =
+      IsBox(world) ? "the device's workspace is no finite box" : "the bounds are no finite box";
     return false;
   }
   double axes[3][3] = { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } };

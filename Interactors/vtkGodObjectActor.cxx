@@ -59,8 +59,8 @@ void DrawThroughSurfaces(vtkActor* part)
 }
 
 /// Places a part whose geometry is 1 long in y, from the origin, and 1 in radius.
-void Stretch(vtkActor* part, const double from[3], const double unit[3], double length,
-  double radius)
+void Stretch(
+  vtkActor* part, const double from[3], const double unit[3], double length, double radius)
 {
   double side[3];
   double other[3];
@@ -206,7 +206,8 @@ void vtkGodObjectActor::BuildTrail()
   points->SetDataTypeToDouble();
   vtkNew<vtkCellArray> lines;
   std::vector<vtkIdType> line;
-  const auto endLine = [&]() {
+  const auto endLine = [&]()
+  {
     if (line.size() > 1)
     {
       lines->InsertNextCell(static_cast<vtkIdType>(line.size()), line.data());
@@ -293,8 +294,7 @@ void vtkGodObjectActor::Arrange(vtkViewport* viewport)
   {
     const double ghost = HapticInterfacePointRadius * radius;
     Stretch(this->HapticInterfacePointPart, this->HapticInterfacePoint, up, ghost, ghost);
-    Stretch(
-      this->SpringPart, this->HapticInterfacePoint, spring, length, SpringRadius * radius);
+    Stretch(this->SpringPart, this->HapticInterfacePoint, spring, length, SpringRadius * radius);
   }
   this->ArrangeForce(radius);
 
@@ -410,9 +410,8 @@ vtkProperty* vtkGodObjectActor::GetTrailProperty()
 void vtkGodObjectActor::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  const auto print = [&](const char* name, const double v[3]) {
-    os << indent << name << ": (" << v[0] << ", " << v[1] << ", " << v[2] << ")\n";
-  };
+  const auto print = [&](const char* name, const double v[3])
+  { os << indent << name << ": (" << v[0] << ", " << v[1] << ", " << v[2] << ")\n"; };
   print("HapticInterfacePoint [world unit]", this->HapticInterfacePoint);
   print("GodObject [world unit]", this->GodObject);
   print("Force [N]", this->Force);

@@ -201,7 +201,8 @@ bool vtkHapticScene::FitWorkspace(vtkCamera* camera)
   }
   if (!box.IsValid())
   {
-    this->Fail("The workspace fits nothing: the scene has no surface that can be touched. Add one.");
+    this->Fail(
+      "The workspace fits nothing: the scene has no surface that can be touched. Add one.");
     return false;
   }
   double bounds[6];
@@ -318,8 +319,8 @@ bool vtkHapticScene::PullSurfaces()
   const bool changed = surfaces.Pull(errors);
   if (changed)
   {
-    const std::uint64_t generation = this->Servo->PublishGodObject(
-      std::make_unique<haptics::GodObject>(surfaces.Touched()));
+    const std::uint64_t generation =
+      this->Servo->PublishGodObject(std::make_unique<haptics::GodObject>(surfaces.Touched()));
     if (!this->Servo->IsRunning())
     {
       surfaces.Forget(generation); // all records are drained, no tick can tell of older ones
@@ -403,8 +404,8 @@ bool vtkHapticScene::ShowState()
   const bool touching = live && latest.NumberOfConstraints > 0;
   const haptics::SceneCell cell = touching ? this->Internal->LatestCell : haptics::SceneCell();
 
-  const bool changed = !std::equal(latest.Hip.begin(), latest.Hip.end(),
-                         this->HapticInterfacePoint) ||
+  const bool changed =
+    !std::equal(latest.Hip.begin(), latest.Hip.end(), this->HapticInterfacePoint) ||
     !std::equal(latest.GodObject.begin(), latest.GodObject.end(), this->GodObject) ||
     !std::equal(force.begin(), force.end(), this->Force) || touching != this->Touching;
   const bool began = touching && !this->Touching;
@@ -485,9 +486,8 @@ void vtkHapticScene::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   const vtkIndent next = indent.GetNextIndent();
-  const auto print = [&](const char* name, const double v[3]) {
-    os << indent << name << ": (" << v[0] << ", " << v[1] << ", " << v[2] << ")\n";
-  };
+  const auto print = [&](const char* name, const double v[3])
+  { os << indent << name << ": (" << v[0] << ", " << v[1] << ", " << v[2] << ")\n"; };
   os << indent << "Engaged: " << (this->Engaged ? "yes" : "no") << "\n";
   os << indent << "Surfaces: " << this->GetNumberOfSurfaces() << "\n";
   for (const auto& surface : this->Internal->Surfaces.All())

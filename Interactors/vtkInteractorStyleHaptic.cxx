@@ -37,8 +37,8 @@ void vtkInteractorStyleHaptic::SetScene(vtkHapticScene* scene)
   {
     return;
   }
-  this->Scene = scene ? vtkSmartPointer<vtkHapticScene>(scene)
-                      : vtkSmartPointer<vtkHapticScene>::New();
+  this->Scene =
+    scene ? vtkSmartPointer<vtkHapticScene>(scene) : vtkSmartPointer<vtkHapticScene>::New();
   this->Modified();
 }
 
@@ -84,9 +84,8 @@ void vtkInteractorStyleHaptic::SetInteractor(vtkRenderWindowInteractor* interact
   {
     // Before the style's own observers, which would take the timer for the trackball's.
     const float before = static_cast<float>(this->Priority) + 1.0f;
-    for (const unsigned long event :
-      { vtkCommand::TimerEvent, vtkCommand::ExitEvent, vtkCommand::DeleteEvent,
-        vtkCommand::ModifiedEvent, vtkCommand::RenderEvent })
+    for (const unsigned long event : { vtkCommand::TimerEvent, vtkCommand::ExitEvent,
+           vtkCommand::DeleteEvent, vtkCommand::ModifiedEvent, vtkCommand::RenderEvent })
     {
       interactor->AddObserver(event, this->InteractorCallback, before);
     }
@@ -103,9 +102,10 @@ void vtkInteractorStyleHaptic::OnInteractorEvent(
     case vtkCommand::TimerEvent:
       if (self->TimerId && callData && *static_cast<int*>(callData) == self->TimerId)
       {
-        // The trackball takes any timer for its own and would go on turning the camera.
-        self->InteractorCallback->SetAbortFlag(1);
         self->UpdateScene();
+        // The trackball takes any timer for its own and would go on turning the camera. Last, as
+        // a render sends this command events that clear the flag.
+        self->InteractorCallback->SetAbortFlag(1);
       }
       break;
     case vtkCommand::ExitEvent:
@@ -125,12 +125,15 @@ void vtkInteractorStyleHaptic::StartTimer()
 {
   // On some systems timers belong to the window, which is there once the interactor is
   // initialised; the interactor's Modified and Render events bring us back here then.
-  if (!this->TimerId && this->Interactor && this->Interactor->GetInitialized() &&
-    !this->Interactor->GetDone())
+  if (!this->TimerId && !this->StartingTimer && this->Interactor &&
+    this->Interactor->GetInitialized() && !this->Interactor->GetDone())
   {
+    // Creating a timer modifies the interactor, whose event comes back here.
+    this->StartingTimer = true;
     const double period = std::ceil(1000.0 / this->MaximumFrameRate);
-    this->TimerId = std::max(
-      0, this->Interactor->CreateRepeatingTimer(static_cast<unsigned long>(period)));
+    this->TimerId =
+      std::max(0, this->Interactor->CreateRepeatingTimer(static_cast<unsigned long>(period)));
+    this->StartingTimer = false;
   }
 }
 
@@ -177,8 +180,7 @@ void vtkInteractorStyleHaptic::Watch(vtkRenderer* renderer)
   this->WatchedRenderer = renderer;
   if (renderer)
   {
-    renderer->AddObserver(
-      vtkCommand::ResetCameraClippingRangeEvent, this->ClippingRangeCallback);
+    renderer->AddObserver(vtkCommand::ResetCameraClippingRangeEvent, this->ClippingRangeCallback);
   }
 }
 

@@ -91,6 +91,7 @@ private:
   vtkWeakPointer<vtkRenderer> WatchedRenderer;
   double MaximumFrameRate = 60.0;
   int TimerId = 0;
+  bool StartingTimer = false;
   vtkIdType NumberOfRenders = 0;
 };
 

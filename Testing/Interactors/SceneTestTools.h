@@ -30,9 +30,8 @@ public:
     : Subject(subject)
   {
     this->Command->SetClientData(this);
-    this->Command->SetCallback([](vtkObject*, unsigned long, void* self, void*) {
-      ++static_cast<EventCounter*>(self)->Count;
-    });
+    this->Command->SetCallback([](vtkObject*, unsigned long, void* self, void*)
+      { ++static_cast<EventCounter*>(self)->Count; });
     subject->AddObserver(event, this->Command);
   }
   ~EventCounter() { this->Subject->RemoveObserver(this->Command); }

@@ -64,7 +64,8 @@ int TestGodObjectActor(int argc, char* argv[])
   hand->IncludeInClippingRange(renderer);
   window->Render();
 
-  const int result = vtkRegressionTestImage(window);
+  // The default of 10 would not even miss the arrow; this leaves room for another driver's edges.
+  const int result = vtkRegressionTestImageThreshold(window, 0.2);
   if (result == vtkRegressionTester::DO_INTERACTOR)
   {
     interactor->Start();

@@ -100,12 +100,14 @@ TEST(HapticScene, KeepsWhatItTouchesWhenItsGeometryTurnsBadAndSaysWhyOnce)
   const Case cases[] = {
     { "empty", [](vtkPolyData* p) { p->Initialize(); } },
     { "not finite",
-      [](vtkPolyData* p) {
+      [](vtkPolyData* p)
+      {
         p->GetPoints()->SetPoint(2, 0.1, std::nan(""), 0.0);
         p->GetPoints()->Modified();
       } },
     { "lines only",
-      [](vtkPolyData* p) {
+      [](vtkPolyData* p)
+      {
         p->SetLines(p->GetPolys());
         p->SetPolys(nullptr);
       } },
@@ -188,7 +190,8 @@ TEST(HapticScene, TheTraceHasOnePointATickWithItsArrays)
   vtkPolyData* trace = hand.Scene->GetTrace();
   ASSERT_EQ(trace->GetNumberOfPoints(), 2);
   ASSERT_EQ(trace->GetNumberOfLines(), 1);
-  const auto value = [&](const char* name, int point, int component) {
+  const auto value = [&](const char* name, int point, int component)
+  {
     vtkDataArray* array = trace->GetPointData()->GetArray(name);
     return array ? array->GetComponent(point, component) : std::nan("");
   };
@@ -235,7 +238,8 @@ TEST(HapticScene, EngagedItFeelsInRealTimeAndReleasedItAsksForNoForce)
   ASSERT_TRUE(hand.Scene->Engage());
   EXPECT_EQ(hand.Scene->Step(1), 0) << "Step() must not run beside the servo thread";
   hand.Device->SetPosition(0.0, 0.0, 0.005);
-  const auto wait = [&](auto condition) {
+  const auto wait = [&](auto condition)
+  {
     for (int i = 0; i < 2000 && !condition(); ++i) // 10 s at most
     {
       std::this_thread::sleep_for(std::chrono::milliseconds(5));

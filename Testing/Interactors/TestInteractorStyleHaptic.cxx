@@ -11,6 +11,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <thread>
+
 namespace
 {
 /// A window whose events the test sends itself, one by one.
@@ -70,6 +73,21 @@ TEST(InteractorStyleHaptic, RendersOnlyWhenSomethingHasChanged)
   EXPECT_EQ(renders.Count, 1);
   window.Timer();
   EXPECT_EQ(renders.Count, 1);
+}
+
+TEST(InteractorStyleHaptic, HasOneTimerThatRunsAndDisturbsNobodyElse)
+{
+  Window window;
+  EventCounter others(window.Interactor, vtkCommand::TimerEvent);
+  window.Table->SetPosition(0.0, 0.0, 0.001);
+  const vtkIdType before = window.Style->GetNumberOfRenders();
+  for (int i = 0; i < 2000 && window.Style->GetNumberOfRenders() == before; ++i) // 10 s at most
+  {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    window.Interactor->ProcessEvents();
+  }
+  EXPECT_EQ(window.Style->GetNumberOfRenders(), before + 1) << "the timer has not come";
+  EXPECT_EQ(others.Count, 0) << "the trackball style would take the timer for its own";
 }
 
 TEST(InteractorStyleHaptic, TheCameraTurnsAsInTheTrackballStyle)

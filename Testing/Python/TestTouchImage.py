@@ -21,7 +21,8 @@ from vtkmodules.vtkRenderingCore import (
 )
 from vtkmodules.vtkTestingRendering import vtkTesting
 
-THRESHOLD = 10.0  # of vtkImageDifference: room for another driver's edges and shades
+# VTK's default of 10 would not even miss the arrow; this leaves room for another driver's edges.
+THRESHOLD = 0.2
 
 baseline, output = sys.argv[1:3]
 
