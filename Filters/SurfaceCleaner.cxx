@@ -1,6 +1,7 @@
 #include "SurfaceCleaner.h"
 
 #include "DuplicateTriangles.h"
+#include "FlatTriangles.h"
 #include "PointMerger.h"
 #include "PolygonSplitter.h"
 
@@ -15,6 +16,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 namespace haptics
 {
@@ -70,6 +72,7 @@ private:
   std::int64_t UsedPoints = 0;
   std::vector<std::int32_t> Merged; // for each input point its kept point, or Unused
   std::vector<Vec3> Local;          // kept points relative to Origin
+  std::vector<Triangle> Flat;       // dropped for lack of area, but with three different corners
   PolygonSplitter Splitter;
   std::vector<std::int32_t> Outline;
   std::vector<Vec3> Corners;
@@ -259,6 +262,10 @@ void Cleaner::AddTriangle(vtkIdType cell, const Triangle& triangle)
   if (!HasArea(this->Local[triangle[0]], this->Local[triangle[1]], this->Local[triangle[2]]))
   {
     ++this->Cleaned.Report.DegenerateTriangles;
+    if (triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0])
+    {
+      this->Flat.push_back(triangle);
+    }
     return;
   }
   this->Cleaned.Mesh.Triangles.push_back(triangle);
@@ -389,6 +396,11 @@ CleaningResult Cleaner::Run()
   if (!done)
   {
     return this->Stopped ? CleaningResult::Aborted : CleaningResult::Failed;
+  }
+  if (!this->Flat.empty())
+  {
+    CloseFlatTriangles(
+      this->Local, std::move(this->Flat), this->Cleaned.Mesh.Triangles, this->Cleaned.OriginalCell);
   }
   this->Cleaned.Report.DuplicateTriangles = DropDuplicateTriangles(
     this->Cleaned.Mesh.Triangles, this->Cleaned.OriginalCell, this->Cleaned.Mesh.Points.size());

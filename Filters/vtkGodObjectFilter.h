@@ -4,7 +4,8 @@
  *
  * Takes polygons with any number of corners (convex or concave, planar or nearly so), triangle
  * strips, and mixtures of these; verts and lines beside them are left out, and so are ghost and
- * blanked cells. Equal points become one, triangles without area and duplicates are dropped. The
+ * blanked cells. Equal points become one, triangles without area and duplicates are dropped, and
+ * where a triangle without area joined a corner to a longer edge, that edge is split there. The
  * output has triangles only, in the world frame and unit of the input, with:
  *
  * - the input's point and cell data, and the arrays `OriginalPointId` and `OriginalCellId`, which

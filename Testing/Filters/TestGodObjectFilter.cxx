@@ -211,7 +211,7 @@ TEST(GodObjectFilter, DropsTrianglesWithoutArea)
       { 0, 4, 1 },    // on one line
       { 2, 2, 2, 2 }, // all corners one
       { 0, 1 },       // too few
-      { 0, 1, 4, 0 }  // a quad on one line
+      { 0, 0, 1, 1 }  // a quad of two points
     });
   auto filter = Prepare(MakePolyData(parts));
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPolys(), 2);
@@ -219,6 +219,23 @@ TEST(GodObjectFilter, DropsTrianglesWithoutArea)
   EXPECT_EQ(FieldValue(filter, "DegenerateTriangles"), 5);
   EXPECT_EQ(filter->GetNumberOfUnusedPoints(), 1) << "only dropped triangles used point 4";
   EXPECT_EQ(filter->GetNumberOfFoldedPolygons(), 0);
+}
+
+TEST(GodObjectFilter, StaysClosedWhereTrianglesWithoutAreaJoinedIt)
+{
+  // The front of the cube has three corners more on its upper edge, 4-5; the top has none. Flat
+  // triangles join them, one of them along another: only together can they go.
+  Parts parts = Cube();
+  parts.Points.insert(parts.Points.end(), { { 0.25, 0, 1 }, { 0.5, 0, 1 }, { 0.75, 0, 1 } });
+  parts.Polys[2] = { 0, 1, 5, 10, 9, 8, 4 };
+  parts.Polys.insert(parts.Polys.end(), { { 8, 9, 4 }, { 4, 9, 5 }, { 9, 10, 5 } });
+  auto filter = Prepare(MakePolyData(parts));
+  EXPECT_EQ(filter->GetNumberOfDegenerateTriangles(), 3);
+  EXPECT_TRUE(filter->GetClosed());
+  EXPECT_TRUE(filter->GetOriented());
+  EXPECT_DOUBLE_EQ(Volume(filter->GetOutput()), 1.0);
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 11);
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPolys(), 2 * 11 - 4) << "Euler's formula";
 }
 
 TEST(GodObjectFilter, KeepsTinyTriangles)
