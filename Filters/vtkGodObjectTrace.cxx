@@ -8,6 +8,7 @@
 #include "vtkAlgorithmOutput.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkCommand.h"
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"
@@ -72,6 +73,8 @@ vtkStandardNewMacro(vtkGodObjectTrace);
 vtkGodObjectTrace::vtkGodObjectTrace()
 {
   this->SetNumberOfInputPorts(2);
+  this->Preparation->AddObserver(
+    vtkCommand::ErrorEvent, this, &vtkGodObjectTrace::KeepSurfaceError);
 }
 
 vtkGodObjectTrace::~vtkGodObjectTrace() = default;
@@ -121,6 +124,18 @@ void vtkGodObjectTrace::SetEngine(int engine)
 int vtkGodObjectTrace::GetEngine() const
 {
   return this->Preparation->GetEngine();
+}
+
+void vtkGodObjectTrace::KeepSurfaceError(vtkObject*, unsigned long, void* text)
+{
+  // "ERROR: In file, line 1\nclass (address): what happened\n\n"
+  this->SurfaceError = static_cast<const char*>(text);
+  const std::size_t start = this->SurfaceError.find("): ");
+  if (start != std::string::npos)
+  {
+    this->SurfaceError.erase(0, start + 3);
+  }
+  this->SurfaceError.erase(this->SurfaceError.find_last_not_of('\n') + 1);
 }
 
 vtkGodObjectFilter* vtkGodObjectTrace::PrepareSurface(vtkPolyData* surface)
@@ -183,7 +198,7 @@ int vtkGodObjectTrace::RequestData(
   vtkGodObjectFilter* prepared = this->PrepareSurface(surface);
   if (!prepared->GetSurface())
   {
-    vtkErrorMacro("The surface at port 1 cannot be touched; the error before this one says why.");
+    vtkErrorMacro(<< "The surface at port 1 cannot be touched. " << this->SurfaceError);
     return 1;
   }
   this->Replay(path, prepared, output);

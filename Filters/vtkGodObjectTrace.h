@@ -37,6 +37,8 @@
 #include "vtkNew.h" // for vtkNew
 #include "vtkPolyDataAlgorithm.h"
 
+#include <string> // for std::string
+
 class vtkGodObjectFilter;
 
 class VTKHAPTICSFILTERS_EXPORT vtkGodObjectTrace : public vtkPolyDataAlgorithm
@@ -102,11 +104,13 @@ private:
   vtkGodObjectTrace(const vtkGodObjectTrace&) = delete;
   void operator=(const vtkGodObjectTrace&) = delete;
 
+  void KeepSurfaceError(vtkObject* caller, unsigned long event, void* text);
   vtkGodObjectFilter* PrepareSurface(vtkPolyData* surface);
   bool CheckPath(vtkPolyData* path);
   void Replay(vtkPolyData* path, vtkGodObjectFilter* prepared, vtkPolyData* output);
 
   vtkNew<vtkGodObjectFilter> Preparation;
+  std::string SurfaceError; // of Preparation, which this class passes on as its own
   double Stiffness = 500.0;
   double MaximumForce = 3.3;
   double WorldToDeviceScale = 1.0;

@@ -268,5 +268,7 @@ TEST(GodObjectTrace, RefusesAMissingSurface)
 
 TEST(GodObjectTrace, RefusesASurfaceThatCannotBeTouched)
 {
-  ExpectRefused(Path({ { 0, 0, 1 } }), Path({ { 0, 0, 0 } }), "cannot be touched");
+  const auto noSurface = Path({ { 0, 0, 0 } });
+  ExpectRefused(Path({ { 0, 0, 1 } }), noSurface, "surface at port 1 cannot be touched");
+  ExpectRefused(Path({ { 0, 0, 1 } }), noSurface, "no polygon");
 }
