@@ -122,24 +122,32 @@ class StrokeError(Exception):
 
 
 class Plan:
-    """A stroke: the view to touch from, the path of the hand and its depth.
+    """A stroke: the view to touch from, and a closed curve over the surface, seen from there."""
 
-    `path` is a vtkPolyData of one line in the world frame with the point array Time [s]; `depth`
-    [world unit] is how far below the surface it goes.
-    """
-
-    def __init__(self, view, path, depth):
+    def __init__(self, view, seconds, u, v, height):
         self.view = view
-        self.path = path
-        self.depth = depth
+        self.seconds = seconds
+        self._u, self._v, self._height = u, v, height
+
+    def at_depth(self, share):
+        """The path of a hand that presses this deep, as a share of half the diagonal of the
+        surface's bounds: a vtkPolyData of one line in the world frame with the point array
+        Time [s], and the depth [world unit]."""
+        depth = share * self.view.radius
+        width = max(1, len(self._height) // 100)
+        # A mean of minima over the same width is nowhere above the surface.
+        height = _smooth(_lowest_nearby(self._height, width), width) - depth
+        ramp = np.linspace(0.0, 1.0, int(200 * APPROACH), endpoint=False)
+        above = (1.0 - np.sin(0.5 * math.pi * ramp)) * 4.0 * depth
+        u = np.pad(self._u, len(ramp), constant_values=self._u[0])
+        v = np.pad(self._v, len(ramp), constant_values=self._v[0])
+        w = np.concatenate([height[0] + above, height, height[0] + above[::-1]])
+        points = self.view.to_world(u, v, w)
+        return _polyline(points, np.linspace(0.0, self.seconds, len(u))), depth
 
 
-def plan_stroke(surface, seconds, depth_share=0.022):
-    """Plans a stroke of some seconds.
-
-    `depth_share` is the plan's depth as a share of half the diagonal of the surface's bounds.
-    Raises StrokeError where nothing can be stroked.
-    """
+def plan_stroke(surface, seconds):
+    """Plans a stroke of some seconds. Raises StrokeError where nothing can be stroked."""
     locator = vtkStaticCellLocator()
     locator.SetDataSet(surface)
     locator.BuildLocator()
@@ -159,18 +167,7 @@ def plan_stroke(surface, seconds, depth_share=0.022):
     height = view.heights(locator, u, v)
     known = np.flatnonzero(np.isfinite(height))
     height = np.interp(np.arange(samples), known, height[known], period=samples)
-    width = max(1, samples // 100)
-    depth = depth_share * view.radius
-    # A mean of minima over the same width is nowhere above the surface.
-    height = _smooth(_lowest_nearby(height, width), width) - depth
-
-    ramp = np.linspace(0.0, 1.0, int(200 * APPROACH), endpoint=False)
-    above = (1.0 - np.sin(0.5 * math.pi * ramp)) * 4.0 * depth
-    u = np.concatenate([np.full(len(ramp), u[0]), u, np.full(len(ramp), u[0])])
-    v = np.concatenate([np.full(len(ramp), v[0]), v, np.full(len(ramp), v[0])])
-    w = np.concatenate([height[0] + above, height, height[0] + above[::-1]])
-    path = _polyline(view.to_world(u, v, w), np.linspace(0.0, seconds, len(u)))
-    return Plan(view, path, depth)
+    return Plan(view, seconds, u, v, height)
 
 
 def _polyline(points, time):
