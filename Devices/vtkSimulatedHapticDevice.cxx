@@ -14,6 +14,7 @@
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>

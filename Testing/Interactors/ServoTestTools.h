@@ -6,6 +6,7 @@
 #include "TriangleSurface.h"
 #include "Vec3.h"
 
+#include <algorithm>
 #include <atomic>
 #include <functional>
 #include <memory>
