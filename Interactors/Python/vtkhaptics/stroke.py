@@ -138,7 +138,9 @@ class Plan:
         # A mean of minima over the same width is nowhere above the surface.
         height = _smooth(_lowest_nearby(self._height, width), width) - depth
         ramp = np.linspace(0.0, 1.0, int(200 * APPROACH), endpoint=False)
-        above = (1.0 - np.sin(0.5 * math.pi * ramp)) * 4.0 * depth
+        # The hand has to begin in the open: above the surface itself, not above its lowest nearby.
+        clear = self._height[0] - height[0] + 0.05 * self.view.radius
+        above = (1.0 - np.sin(0.5 * math.pi * ramp)) * clear
         u = np.pad(self._u, len(ramp), constant_values=self._u[0])
         v = np.pad(self._v, len(ramp), constant_values=self._v[0])
         w = np.concatenate([height[0] + above, height, height[0] + above[::-1]])
