@@ -10,8 +10,9 @@ namespace haptics
 namespace
 {
 /// Fig. 5's two-step transition over a convex edge is made within one update by passes; each lets
-/// go of the planes that held only beyond their facets.
-constexpr int LargestNumberOfPasses = 4;
+/// go of the planes that held only beyond their facets. Two or three do on a slide; a god-object
+/// that slips off a round body in one tick takes more, and every tick that needs fewer pays none.
+constexpr int LargestNumberOfPasses = 16;
 /// A pass meets at most a few facets; more come of rounding.
 constexpr int LargestNumberOfCasts = 12;
 /// A refused motion is tried at 1, 1/2, ... 1/32 of its length.

@@ -43,7 +43,7 @@ struct Contact
 ///
 /// Each update moves the point towards the HIP until a facet is met, adds the facet's plane, solves
 /// the paper's equation (4) with a check of the multipliers' signs, and goes on until no facet is in
-/// the way; up to four such passes, so that a convex edge is crossed in the same tick (Fig. 5).
+/// the way; up to 16 such passes, so that convex edges are crossed in the same tick (Fig. 5).
 ///
 /// **What is guaranteed.** Every straight piece of the god-object's way has been certified: it
 /// touches no facet of any surface from a side that can be touched, shared edges and corners
@@ -59,7 +59,7 @@ struct Contact
 /// **Monotone**: an update never takes the god-object farther from the HIP it is given, beyond
 /// rounding: the premise of the stability bound K <= 2b/T on any static surface.
 ///
-/// **Bounded**: at most 4 passes of 12 casts, and 32,768 triangles looked up in all; where one place
+/// **Bounded**: at most 16 passes of 12 casts, and 32,768 triangles looked up in all; where one place
 /// needs more, the god-object is held there (UpdateStatus::Overloaded).
 class VTKHAPTICSCORE_EXPORT GodObject
 {

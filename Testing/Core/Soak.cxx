@@ -4,6 +4,7 @@
 #include "AnalyticSurfaces.h"
 #include "ExactQueries.h"
 #include "GodObject.h"
+#include "HipPath.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +12,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <functional>
-#include <random>
 #include <string>
 
 using namespace haptics;
@@ -19,8 +19,6 @@ using namespace haptics::testing;
 
 namespace
 {
-constexpr double Pi = 3.14159265358979323846;
-
 struct Scene
 {
   const char* Name;
@@ -87,103 +85,6 @@ const std::vector<Scene>& AllScenes()
   return scenes;
 }
 
-/// Ways of a HIP, in device-like units: metres, one position a tick of 1 ms.
-class Path
-{
-public:
-  enum Kind
-  {
-    Smooth,
-    Jitter,
-    Jump,
-    AlongLines,
-    Plunge,
-    NumberOfKinds
-  };
-
-  Path(Kind kind, double reach, unsigned seed)
-    : Way(kind)
-    , Reach(reach)
-    , Random(seed)
-  {
-    this->Direction = Unit({ this->Normal(), this->Normal(), this->Normal() });
-  }
-
-  Vec3 Next()
-  {
-    const double step = 1e-3;
-    ++this->Tick;
-    switch (this->Way)
-    {
-      case Jump:
-        return this->Anywhere();
-      case Jitter:
-        if (this->Tick % 50 == 1)
-        {
-          this->Base = this->Anywhere();
-        }
-        return this->Base + 0.002 * this->Reach * Vec3{ this->Normal(), this->Normal(), this->Normal() };
-      case AlongLines:
-        return this->NextAlongLines();
-      case Plunge:
-        // Straight through everything at 5 m/s, from a new place each time.
-        if (this->Tick % 40 == 1)
-        {
-          this->Base = 2.0 * this->Reach * Unit(this->Anywhere());
-          this->Direction = Unit(this->Anywhere() - this->Base);
-        }
-        this->Base = this->Base + 5.0 * step * this->Direction;
-        return this->Base;
-      default:
-        break;
-    }
-    // A wandering direction at a breathing depth: strokes with presses of some millimetres,
-    // rounded as encoders do.
-    this->Spin = 0.995 * this->Spin + 0.25 * Vec3{ this->Normal(), this->Normal(), this->Normal() };
-    this->Direction = Unit(this->Direction + step * Cross(this->Spin, this->Direction));
-    const double depth = -0.1 + 0.25 * (1.0 - std::cos(2.0 * Pi * 0.7 * step * this->Tick));
-    const Vec3 hip = (this->Reach * (1.0 - depth)) * this->Direction;
-    const double encoder = 5.5e-5;
-    return { encoder * std::floor(hip[0] / encoder), encoder * std::floor(hip[1] / encoder),
-      encoder * std::floor(hip[2] / encoder) };
-  }
-
-private:
-  double Normal() { return std::normal_distribution<double>()(this->Random); }
-  Vec3 Anywhere()
-  {
-    std::uniform_real_distribution<double> place(-1.2 * this->Reach, 1.2 * this->Reach);
-    return { place(this->Random), place(this->Random), place(this->Random) };
-  }
-  /// Sweeps in the planes of a mesh of 8 cells across, and along its diagonals.
-  Vec3 NextAlongLines()
-  {
-    const double lines[] = { 0.0, 0.25, -0.25, 0.5, 1.0 };
-    const double a = this->Reach * std::sin(0.0013 * this->Tick);
-    const double z = this->Reach * (1.0 + 0.1 - 0.25 * (0.5 - 0.5 * std::cos(0.0051 * this->Tick)));
-    const double y = this->Reach * lines[(this->Tick / 3000) % 5];
-    switch ((this->Tick / 1000) % 3)
-    {
-      case 0:
-        return { a, y, z };
-      case 1:
-        return { y, a, z };
-      default:
-        return { a, a, z };
-    }
-  }
-
-  Kind Way;
-  double Reach;
-  std::mt19937 Random;
-  long Tick = 0;
-  Vec3 Direction{};
-  Vec3 Spin{};
-  Vec3 Base{};
-};
-
-const char* const PathNames[] = { "smooth", "jitter", "jump", "along lines", "plunge" };
-
 struct Tally
 {
   long Ticks = 0, Contacts = 0, Leaks = 0, Away = 0, Stalls = 0, DoubleStalls = 0, Overloads = 0;
@@ -241,13 +142,13 @@ double UnansweredPull(const Contact& contact)
   return best / contact.Penetration;
 }
 
-void Run(const Scene& scene, Path::Kind kind, long ticks, unsigned seed, EngineKind engine,
+void Run(const Scene& scene, HipPath::Kind kind, long ticks, unsigned seed, EngineKind engine,
   Tally& tally)
 {
   const auto surface = MakeSurface(scene.Make(), scene.TouchedSide, engine);
   const ExactQueries exact(surface);
   GodObject god({ surface });
-  Path path(kind, scene.Reach, seed);
+  HipPath path(kind, scene.Reach, seed);
   const Vec3& origin = surface->Origin();
   const double radius = surface->Radius();
   Vec3 before{};
@@ -269,20 +170,20 @@ void Run(const Scene& scene, Path::Kind kind, long ticks, unsigned seed, EngineK
       if (exact.Crosses(way[i], way[i + 1]))
       {
         ++tally.Leaks;
-        std::printf("LEAK  %s, %s, tick %ld, seed %u\n", scene.Name, PathNames[kind], tick, seed);
+        std::printf("LEAK  %s, %s, tick %ld, seed %u\n", scene.Name, HipPath::NameOf(kind), tick, seed);
       }
     }
     if (way[0] != before)
     {
       ++tally.Leaks; // the pieces of the way have to join
-      std::printf("GAP   %s, %s, tick %ld, seed %u\n", scene.Name, PathNames[kind], tick, seed);
+      std::printf("GAP   %s, %s, tick %ld, seed %u\n", scene.Name, HipPath::NameOf(kind), tick, seed);
     }
     const Vec3 now = way[corners - 1];
     const Vec3 goal = hip - origin;
     if (Length(now - goal) > Length(before - goal) * (1.0 + 1e-9) + 1e-12 * radius)
     {
       ++tally.Away;
-      std::printf("AWAY  %s, %s, tick %ld, seed %u: %g\n", scene.Name, PathNames[kind], tick, seed,
+      std::printf("AWAY  %s, %s, tick %ld, seed %u: %g\n", scene.Name, HipPath::NameOf(kind), tick, seed,
         Length(now - goal) - Length(before - goal));
     }
     ++tally.Ticks;
@@ -295,7 +196,7 @@ void Run(const Scene& scene, Path::Kind kind, long ticks, unsigned seed, EngineK
     if (stalled && std::getenv("SOAK_SHOW_STALLS"))
     {
       std::printf("STALL %s, %s, tick %ld, seed %u: constraints %d, unanswered %g\n", scene.Name,
-        PathNames[kind], tick, seed, contact.NumberOfConstraints, UnansweredPull(contact));
+        HipPath::NameOf(kind), tick, seed, contact.NumberOfConstraints, UnansweredPull(contact));
     }
     stalledBefore = stalled;
     before = now;
@@ -361,9 +262,9 @@ int main(int argc, char* argv[])
       continue;
     }
     Tally tally;
-    for (int kind = 0; kind < Path::NumberOfKinds; ++kind)
+    for (int kind = 0; kind < HipPath::NumberOfKinds; ++kind)
     {
-      Run(scene, static_cast<Path::Kind>(kind), ticks, seed + kind, engine, tally);
+      Run(scene, static_cast<HipPath::Kind>(kind), ticks, seed + kind, engine, tally);
     }
     const auto print = [](const char* name, const Tally& t)
     {

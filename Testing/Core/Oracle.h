@@ -1,0 +1,48 @@
+#ifndef Oracle_h
+#define Oracle_h
+
+#include "GodObject.h"
+
+#include <vector>
+
+namespace haptics::testing
+{
+/// @brief Where the god-object would be if the HIP had moved slowly: the constrained gradient flow.
+///
+/// The straight way of the HIP in a tick is cut into 8 steps, then 16, ... until that moves the
+/// answer by less than a micrometre (or 1024 steps).
+class Oracle
+{
+public:
+  explicit Oracle(const std::shared_ptr<const TriangleSurface>& surface);
+
+  void Place(const Vec3& hip);
+  /// The god-object for the HIP's next place. [world]
+  Vec3 Update(const Vec3& hip);
+
+private:
+  Vec3 Walk(const Vec3& to, int steps);
+
+  GodObject Before; ///< at the start of the tick
+  GodObject Trial;
+  Vec3 Hip{};
+};
+
+/// Errors of a god-object against the oracle over the ticks in contact.
+class Accuracy
+{
+public:
+  /// One tick in contact. [world, m]
+  void Add(const Vec3& hip, const Vec3& godObject, const Vec3& oracle);
+
+  std::size_t Size() const { return this->Position.size(); }
+  /// E_p [m] and E_theta [degrees] at a quantile: 0.5 median, 1 largest.
+  double PositionError(double quantile) const;
+  double DirectionError(double quantile) const;
+
+private:
+  std::vector<double> Position, Direction;
+};
+}
+
+#endif
