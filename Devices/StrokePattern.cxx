@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace haptics
 {
@@ -14,12 +15,12 @@ bool Check(const StrokePattern& pattern, std::string& error)
     error = "The stroke axis must be 0, 1 or 2, but is " + std::to_string(pattern.Axis) + ".";
     return false;
   }
-  for (int axis = 0; axis < 3; ++axis)
+  for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const double low = pattern.Bounds[2 * axis];
     const double high = pattern.Bounds[2 * axis + 1];
     if (!std::isfinite(low) || !std::isfinite(high) || low > high ||
-      (axis != pattern.Axis && low == high))
+      (axis != static_cast<std::size_t>(pattern.Axis) && low == high))
     {
       error = "The stroke bounds along axis " + std::to_string(axis) + " are from " +
         std::to_string(low) + " to " + std::to_string(high) +
@@ -77,16 +78,15 @@ std::vector<DevicePoint> StrokePattern::Points(std::string& error) const
   {
     return {};
   }
-  const int u = (this->Axis + 1) % 3;
-  const int v = (this->Axis + 2) % 3;
-  const double top = this->Bounds[2 * this->Axis + 1];
+  const auto down = static_cast<std::size_t>(this->Axis);
+  const double top = this->Bounds[2 * down + 1];
   const auto place = [&](const std::array<double, 2>& unit, double height)
   {
     DevicePoint point;
-    point[this->Axis] = height;
-    for (int k = 0; k < 2; ++k)
+    point[down] = height;
+    for (std::size_t k = 0; k < 2; ++k)
     {
-      const int axis = k == 0 ? u : v;
+      const std::size_t axis = (down + 1 + k) % 3;
       const double low = this->Bounds[2 * axis];
       const double high = this->Bounds[2 * axis + 1];
       point[axis] = 0.5 * (low + high) + unit[k] * (0.5 - this->Inset) * (high - low);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace haptics
 {
@@ -93,7 +94,7 @@ Vec3 WorkspaceTransform::VectorToDevice(const Vec3& vector) const noexcept
 Vec3 WorkspaceTransform::DirectionToWorld(const Vec3& vector) const noexcept
 {
   Vec3 result;
-  for (int i = 0; i < 3; ++i)
+  for (std::size_t i = 0; i < 3; ++i)
   {
     result[i] = this->Rotation[3 * i] * vector[0] + this->Rotation[3 * i + 1] * vector[1] +
       this->Rotation[3 * i + 2] * vector[2];
