@@ -127,4 +127,11 @@ std::shared_ptr<const TriangleSurface> TriangleSurface::Build(
 }
 
 TriangleSurface::~TriangleSurface() = default;
+
+std::size_t TriangleSurface::MemoryBytes() const
+{
+  return sizeof(*this) + this->Mesh.Points.capacity() * sizeof(Vec3) +
+    this->Mesh.Triangles.capacity() * sizeof(Triangle) +
+    this->Adjacent.capacity() * sizeof(Neighbours::value_type) + this->Collision->MemoryBytes();
+}
 }

@@ -7,6 +7,7 @@
 #include "vtkHapticsCoreModule.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -77,6 +78,8 @@ public:
   Side TouchedSide() const { return this->Touched; }
   const SurfaceReport& Report() const { return this->Found; }
   const CollisionEngine& Engine() const { return *this->Collision; }
+  /// Bytes that this snapshot holds, its engine included.
+  std::size_t MemoryBytes() const;
 
 private:
   TriangleSurface() = default;

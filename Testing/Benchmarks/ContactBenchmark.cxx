@@ -1,0 +1,224 @@
+// How long an update of the god-object takes, and what a surface costs to make.
+//
+// Times of single ticks are taken with the clock inside the loop, as their high quantiles are what
+// a servo needs: the counters mean_us, p50_us, p99_us and p999_us. The clock adds about 0.03 us.
+#include "AnalyticSurfaces.h"
+#include "GodObject.h"
+
+#include "vtkGodObjectFilter.h"
+#include "vtkNew.h"
+#include "vtkPoints.h"
+#include "vtkCellArray.h"
+#include "vtkPolyData.h"
+#include "vtkXMLPolyDataReader.h"
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <string>
+
+using namespace haptics;
+using namespace haptics::testing;
+
+namespace
+{
+constexpr int Ticks = 10000;
+
+using SurfacePointer = std::shared_ptr<const TriangleSurface>;
+
+SurfacePointer Build(TriangleMesh mesh, EngineKind engine)
+{
+  SurfaceOptions options;
+  options.TouchedSide = Side::Front;
+  options.Engine = engine;
+  std::string error;
+  return TriangleSurface::Build(std::move(mesh), options, error);
+}
+
+/// Spheres of R = 1 m, made once.
+SurfacePointer Sphere(int level, bool inside, EngineKind engine)
+{
+  static std::map<std::tuple<int, bool, EngineKind>, SurfacePointer> made;
+  SurfacePointer& surface = made[{ level, inside, engine }];
+  if (!surface)
+  {
+    const TriangleMesh mesh = Icosphere(level, 1.0);
+    surface = Build(inside ? InsideOut(mesh) : mesh, engine);
+  }
+  return surface;
+}
+
+/// Moves the god-object along the places of the HIP over and over, and reports single ticks.
+void Stroke(benchmark::State& state, const SurfacePointer& surface, const std::vector<Vec3>& start,
+  const std::vector<Vec3>& hips)
+{
+  using Clock = std::chrono::steady_clock;
+  std::vector<double> times;
+  long contacts = 0;
+  for (auto _ : state)
+  {
+    GodObject god({ surface });
+    for (const Vec3& hip : start)
+    {
+      god.Update(hip);
+    }
+    for (const Vec3& hip : hips)
+    {
+      const auto before = Clock::now();
+      const Contact& contact = god.Update(hip);
+      times.push_back(std::chrono::duration<double, std::micro>(Clock::now() - before).count());
+      contacts += contact.Status == UpdateStatus::Touching;
+    }
+  }
+  const auto quantile = [&times](double q)
+  {
+    const auto nth = times.begin() + static_cast<std::ptrdiff_t>(q * (times.size() - 1));
+    std::nth_element(times.begin(), nth, times.end());
+    return *nth;
+  };
+  double sum = 0.0;
+  for (const double time : times)
+  {
+    sum += time;
+  }
+  state.counters["triangles"] = static_cast<double>(surface->Triangles().size());
+  state.counters["mean_us"] = sum / times.size();
+  state.counters["p50_us"] = quantile(0.5);
+  state.counters["p99_us"] = quantile(0.99);
+  state.counters["p999_us"] = quantile(0.999);
+  state.counters["contact"] = static_cast<double>(contacts) / times.size();
+}
+
+/// A circle about the middle of a sphere of R = 1 m, 1 mm a tick.
+std::vector<Vec3> Circle(double radius)
+{
+  const Vec3 u = Unit(Cross({ 0.3, 0.5, 0.81 }, { 0, 0, 1 }));
+  const Vec3 v = Unit(Cross({ 0.3, 0.5, 0.81 }, u));
+  std::vector<Vec3> hips;
+  for (int tick = 0; tick < Ticks; ++tick)
+  {
+    const double a = 1e-3 * tick / radius;
+    hips.push_back(radius * (std::cos(a) * u + std::sin(a) * v));
+  }
+  return hips;
+}
+
+void SlideOutside(benchmark::State& state)
+{
+  const auto hips = Circle(0.98);
+  Stroke(state, Sphere(static_cast<int>(state.range(0)), false, EngineKind::Embree),
+    { 1.2 * hips[0] }, hips);
+}
+
+void SlideInside(benchmark::State& state)
+{
+  const auto hips = Circle(1.02);
+  Stroke(state, Sphere(static_cast<int>(state.range(0)), true, EngineKind::Embree),
+    { 0.8 * hips[0] }, hips);
+}
+
+void FreeSpace(benchmark::State& state)
+{
+  // 20 mm above the surface, as far as the slides are below it.
+  const auto hips = Circle(1.02);
+  Stroke(state, Sphere(static_cast<int>(state.range(0)), false, EngineKind::Embree), {}, hips);
+}
+
+void SlideWith(benchmark::State& state, EngineKind engine)
+{
+  const auto hips = Circle(0.98);
+  Stroke(state, Sphere(static_cast<int>(state.range(0)), false, engine), { 1.2 * hips[0] }, hips);
+}
+
+/// Where a ray from outside towards the middle first meets the surface, 2 % of the radius deeper.
+std::vector<Vec3> StrokeOver(const SurfacePointer& surface)
+{
+  const double radius = surface->Radius();
+  GodObject ray({ surface });
+  std::vector<Vec3> hips;
+  double height = radius;
+  for (int tick = 0; tick < Ticks; ++tick)
+  {
+    const double a = 1e-3 * tick; // 1/1000 of the radius a tick
+    const Vec3 outwards = Unit({ std::cos(a), std::sin(a), 0.3 * std::sin(0.7 * a) });
+    ray.Place(surface->Origin() + 1.1 * radius * outwards);
+    int corners = 0;
+    ray.Update(surface->Origin());
+    const Vec3* const way = ray.Way(corners);
+    const double met = corners > 1 ? Length(way[1]) : 0.0;
+    // Smoothed, as a hand does not jump into a hole.
+    height += 0.02 * (std::min(met, 1.1 * radius) - height);
+    hips.push_back(surface->Origin() + (height - 0.02 * radius) * outwards);
+  }
+  return hips;
+}
+
+void SlideOverFile(benchmark::State& state, const std::string& name)
+{
+  const char* const folder = std::getenv("HAPTICS_SURFACES");
+  const std::string path = std::string(folder ? folder : "build/surfaces") + "/" + name + ".vtp";
+  vtkNew<vtkXMLPolyDataReader> reader;
+  if (!reader->CanReadFile(path.c_str()))
+  {
+    state.SkipWithError(("no " + path + ": python3 Data/get_surfaces.py " + name).c_str());
+    return;
+  }
+  reader->SetFileName(path.c_str());
+  vtkNew<vtkGodObjectFilter> filter;
+  filter->SetInputConnection(reader->GetOutputPort());
+  filter->Update();
+  const SurfacePointer surface = filter->GetSurface();
+  const auto hips = StrokeOver(surface);
+  Stroke(state, surface, { 1.2 * (hips[0] - surface->Origin()) + surface->Origin() }, hips);
+}
+
+/// From Update() of the filter on plain triangles to a surface that can be touched.
+void MakeTouchable(benchmark::State& state)
+{
+  const TriangleMesh mesh = Icosphere(static_cast<int>(state.range(0)), 1.0);
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (const Vec3& p : mesh.Points)
+  {
+    points->InsertNextPoint(p.data());
+  }
+  vtkNew<vtkCellArray> cells;
+  for (const auto& [a, b, c] : mesh.Triangles)
+  {
+    cells->InsertNextCell({ a, b, c });
+  }
+  vtkNew<vtkPolyData> input;
+  input->SetPoints(points);
+  input->SetPolys(cells);
+  double bytes = 0.0;
+  for (auto _ : state)
+  {
+    vtkNew<vtkGodObjectFilter> filter;
+    filter->SetInputData(input);
+    filter->Update();
+    bytes = static_cast<double>(filter->GetSurface()->MemoryBytes()) +
+      1024.0 * filter->GetOutput()->GetActualMemorySize();
+  }
+  state.counters["triangles"] = static_cast<double>(mesh.Triangles.size());
+  state.counters["bytes_per_triangle"] = bytes / mesh.Triangles.size();
+}
+
+// 1,280, 20,480, 327,680 and 1,310,720 triangles.
+#define HAPTICS_LEVELS Arg(3)->Arg(5)->Arg(7)->Arg(8)
+// One iteration is a stroke of 10,000 ticks; what is compared are medians of the repetitions.
+#define HAPTICS_REPEATED Iterations(1)->Repetitions(9)->ReportAggregatesOnly()->Unit(benchmark::kMillisecond)
+
+BENCHMARK(SlideOutside)->HAPTICS_LEVELS->HAPTICS_REPEATED;
+BENCHMARK(SlideInside)->HAPTICS_LEVELS->HAPTICS_REPEATED;
+BENCHMARK(FreeSpace)->HAPTICS_LEVELS->HAPTICS_REPEATED;
+BENCHMARK_CAPTURE(SlideOverFile, frog, "frog")->HAPTICS_REPEATED;
+BENCHMARK_CAPTURE(SlideWith, BruteForce, EngineKind::BruteForce)->DenseRange(0, 5)->HAPTICS_REPEATED;
+BENCHMARK_CAPTURE(SlideWith, Embree, EngineKind::Embree)->DenseRange(0, 5)->HAPTICS_REPEATED;
+BENCHMARK(MakeTouchable)->Arg(7)->Arg(8)->Iterations(1)->Repetitions(5)->ReportAggregatesOnly()->Unit(benchmark::kMillisecond);
+}
+
+BENCHMARK_MAIN();
