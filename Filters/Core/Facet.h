@@ -4,6 +4,7 @@
 #include "VectorMath.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace haptics
@@ -61,27 +62,34 @@ struct Facet
   }
 };
 
-/// Whether x, projected on the triangle's plane, lies in the triangle grown by `growth` beyond its
-/// edges. `normal` is the unit normal; its sign follows the corners' order.
+/// How far a facet is taken to reach beyond each of its edges 0-1, 1-2 and 2-0.
+using Growth = std::array<double, 3>;
+
+/// Whether x, projected on the triangle's plane, lies in the triangle grown beyond its edges.
+/// `normal` is the unit normal; its sign follows the corners' order.
 inline bool CoversGrown(const Vector& normal, const Vector& a, const Vector& b, const Vector& c,
-  const Vector& x, double growth)
+  const Vector& x, const Growth& growth)
 {
-  const auto isWithin = [&](const Vector& from, const Vector& to)
+  const auto isWithin = [&](const Vector& from, const Vector& to, double reach)
   {
     const Vector edge = to - from;
     const double inward = glm::dot(glm::cross(normal, edge), x - from);
-    return inward >= 0.0 || inward * inward <= growth * growth * SquaredLength(edge);
+    return inward >= 0.0 || inward * inward <= reach * reach * SquaredLength(edge);
   };
-  return isWithin(a, b) && isWithin(b, c) && isWithin(c, a);
+  return isWithin(a, b, growth[0]) && isWithin(b, c, growth[1]) && isWithin(c, a, growth[2]);
 }
 
-/// A facet is met a little beyond its edges, by this many clearances: closes cracks as wide.
-constexpr double GrowthPerClearance = 4.0;
+/// A facet is met a little beyond its edges, by so many clearances: closes gaps as wide.
+constexpr double GrowthOverGaps = 4.0;
+/// Where backs are touched too, less beyond an edge that facets share: a god-object that comes
+/// around a sharp edge at one clearance's height passes behind the next facet's plane, no farther
+/// beyond its edge than that, and must not be held there. A shared edge has no gap to close.
+constexpr double GrowthSeenFromBehind = 0.25;
 
 /// The widest that any facet of a surface reaches beyond itself.
 inline double LargestGrowth(double clearance, double longestEdge)
 {
-  return (GrowthPerClearance + 1.0) * std::max(clearance, 1e-6 * longestEdge);
+  return (GrowthOverGaps + 1.0) * std::max(clearance, 1e-6 * longestEdge);
 }
 }
 

@@ -179,6 +179,19 @@ WorkingSet::Corners WorkingSet::CornersOf(std::int32_t triangle) const
     ToVector(points[corners[2]]) };
 }
 
+Growth WorkingSet::GrowthOf(std::int32_t triangle, double clearance, double wayError) const
+{
+  const bool hasBacks = this->Touched->TouchedSide() == Side::Both;
+  Growth growth;
+  for (int k = 0; k < 3; ++k)
+  {
+    const bool isShared = this->Touched->AdjacentTriangles()[triangle][k] != BoundaryEdge;
+    growth[k] =
+      (hasBacks && isShared ? GrowthSeenFromBehind : GrowthOverGaps) * clearance + wayError;
+  }
+  return growth;
+}
+
 void WorkingSet::Fill(const TriangleList& found, double reach)
 {
   this->Count = 0;
@@ -300,7 +313,7 @@ FacetHit WorkingSet::Scan(const Vector& to, const ActivePlanes& active)
     }
     const auto [a, b, c] = this->CornersOf(id.Triangle);
     const Vector normal = this->FacetNormal(i);
-    const double growth = GrowthPerClearance * clearance + wayError;
+    const Growth growth = this->GrowthOf(id.Triangle, clearance, wayError);
     const double enter = std::max(0.0, (here - 0.5 * clearance) / approach);
     const double cross = std::clamp(here / approach, 0.0, 1.0);
     const bool meets =
@@ -377,6 +390,6 @@ bool WorkingSet::Covers(const ActivePlane& plane, const Vector& position) const
   const auto [a, b, c] = this->CornersOf(plane.Facet.Triangle);
   const bool isFlipped = glm::dot(glm::cross(b - a, c - a), plane.Normal) < 0.0;
   return CoversGrown(isFlipped ? -plane.Normal : plane.Normal, a, b, c, position - this->Offset,
-    GrowthPerClearance * plane.Clearance);
+    this->GrowthOf(plane.Facet.Triangle, plane.Clearance, 0.0));
 }
 }

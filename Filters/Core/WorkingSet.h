@@ -82,6 +82,7 @@ private:
     Vector A, B, C;
   };
   Corners CornersOf(std::int32_t triangle) const;
+  Growth GrowthOf(std::int32_t triangle, double clearance, double wayError) const;
   Vector FacetNormal(std::int32_t i) const
   {
     const Vector n{ this->NormalX[i], this->NormalY[i], this->NormalZ[i] };

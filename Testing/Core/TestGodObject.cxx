@@ -256,6 +256,33 @@ TEST(GodObject, GoesAroundTheRimOfATwoSidedSheet)
   ExpectAt(god.Update({ 0.01, 0, 0.003 }), { 0.01, 0, 0 });
 }
 
+// Coming around a sharp edge, the god-object passes behind the next facet's plane: no contact.
+TEST(GodObject, FeelsTheSameFromOutsideWhetherOneSideOrBothAreTouched)
+{
+  const std::pair<TriangleMesh, double> scenes[] = { { Box(0.03, 0.03, 0.03, 8), 0.03 },
+    { Star(3, 0.04, 0.4, 3), 0.04 }, { Icosphere(2, 0.03), 0.03 }, { Groove(60, 0.05), 0.03 } };
+  int scene = 0;
+  for (const auto& [mesh, reach] : scenes)
+  {
+    ++scene;
+    GodObject front({ MakeSurface(mesh, Side::Front) });
+    GodObject both({ MakeSurface(mesh, Side::Both) });
+    for (GodObject* god : { &front, &both })
+    {
+      god->Update({ 0.01 * reach, 0.02 * reach, 3.0 * reach });
+    }
+    for (int tick = 0; tick < 4000; ++tick)
+    {
+      const double a = 2e-3 * tick;
+      const Vec3 hip =
+        0.8 * reach * Vec3{ std::sin(a) * std::cos(0.37 * a), std::sin(1.3 * a + 0.1), std::cos(a) };
+      const Vec3 position = front.Update(hip).Position;
+      ASSERT_LT(Length(both.Update(hip).Position - position), 1e-9)
+        << "scene " << scene << ", tick " << tick;
+    }
+  }
+}
+
 TEST(GodObject, TouchesSeveralSurfacesAtOnce)
 {
   // A floor and a wall as surfaces of their own: the force does not add up to twice (Fig. 3).
