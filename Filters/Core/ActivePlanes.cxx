@@ -56,6 +56,10 @@ Vector ActivePlanes::Nearest(const Vector& from, const Vector& hip)
   {
     return from;
   }
+  if (this->NumberOfSupports == 0)
+  {
+    return hip; // exactly: free space has no force
+  }
   // `from` is allowed: a nearest point farther from the HIP than it is rounding's.
   return SquaredLength(step - wish) <= SquaredLength(wish) * (1.0 + 1e-12) ? from + step : from;
 }

@@ -27,6 +27,8 @@ struct ActivePlane
   Vector Normal{ 0 }; ///< unit, towards the god-object
   Vector Anchor{ 0 }; ///< a corner of the facet, scene frame
   double Clearance = 0.0;
+  /// Met from so far away that its clearance is more than it has to be: to be met anew.
+  bool IsFar = false;
 };
 
 /// @brief The planes that became active in one pass, and the nearest point to the HIP they allow.
@@ -41,6 +43,26 @@ public:
   static constexpr int Capacity = 6;
 
   void Clear();
+  /// Leaves only the planes that hold the last nearest point and pass the test.
+  template <class Test>
+  void KeepSupports(const Test& isKept)
+  {
+    std::array<ActivePlane, 3> kept;
+    int count = 0;
+    for (int i = 0; i < this->NumberOfSupports; ++i)
+    {
+      if (isKept(this->Support(i)))
+      {
+        kept[count++] = this->Support(i);
+      }
+    }
+    this->Clear();
+    for (int i = 0; i < count; ++i)
+    {
+      this->Add(kept[i]);
+    }
+  }
+  bool IsEmpty() const { return this->Count == 0; }
   bool Has(const FacetId& facet) const;
   /// Adds a plane; when full, in place of one that does not support the goal.
   void Add(const ActivePlane& plane);

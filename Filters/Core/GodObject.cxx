@@ -46,6 +46,7 @@ public:
   {
     this->Position = position;
     this->IsPlaced = true;
+    this->Active.Clear();
     for (WorkingSet& set : this->Sets)
     {
       set.Place(position);
@@ -56,7 +57,6 @@ public:
   {
     this->Budget.Triangles = LargestNumberOfTriangles;
     this->IsOverloaded = false;
-    this->Active.Clear();
     this->Way[0] = ToVec3(this->Position);
     this->WaySize = 1;
     for (int pass = 0; pass < LargestNumberOfPasses; ++pass)
@@ -89,8 +89,11 @@ private:
   /// True if it came there.
   bool Pass(const Vector& hip)
   {
-    this->Active.Clear();
-    Vector goal = hip;
+    // The facets that the god-object lies on hold it still: the cast to the HIP would meet them
+    // first, so it is left out.
+    this->Active.KeepSupports(
+      [this](const ActivePlane& plane) { return !plane.IsFar && this->IsOver(plane); });
+    Vector goal = this->Active.IsEmpty() ? hip : this->Active.Nearest(this->Position, hip);
     for (int cast = 0; cast < LargestNumberOfCasts; ++cast)
     {
       FacetHit hit;
@@ -168,13 +171,17 @@ private:
   {
     for (int i = 0; i < this->Active.SupportSize(); ++i)
     {
-      const ActivePlane& plane = this->Active.Support(i);
-      if (!this->Sets[plane.Facet.Surface].Covers(plane, this->Position))
+      if (!this->IsOver(this->Active.Support(i)))
       {
         return false;
       }
     }
     return true;
+  }
+
+  bool IsOver(const ActivePlane& plane) const
+  {
+    return this->Sets[plane.Facet.Surface].Covers(plane, this->Position);
   }
 
   std::vector<WorkingSet> Sets;

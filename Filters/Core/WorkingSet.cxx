@@ -17,12 +17,22 @@ constexpr std::int32_t LargestSet = 8192;
 /// A ball with more is tried again at half the radius.
 constexpr std::int32_t LargestBall = 256;
 /// About as many make gathering rare and scanning quick.
-constexpr double WantedInBall = 24.0;
+constexpr double WantedInBall = 16.0;
+/// How far ahead of the god-object a ball is centred, in radii.
+constexpr double Lead = 0.5;
 
-bool BoxMeetsBall(const Vector& low, const Vector& high, const Vector& centre, double radius)
+void Prefetch(const void* address)
 {
-  const Vector outside = glm::max(glm::max(low - centre, centre - high), Vector(0.0));
-  return SquaredLength(outside) <= radius * radius;
+#if defined(__GNUC__)
+  __builtin_prefetch(address);
+#else
+  (void)address;
+#endif
+}
+
+double SquaredDistanceToBox(const Vector& x, const Vector& low, const Vector& high)
+{
+  return SquaredLength(glm::max(glm::max(low - x, x - high), Vector(0.0)));
 }
 }
 
@@ -34,6 +44,7 @@ WorkingSet::WorkingSet(
   // Positions are rounded in the scene frame, which may be far from this surface.
   , MinimumClearance(std::max(
       this->Touched->Clearance(), 1024.0 * UnitRoundoff * (glm::length(offset) + this->Touched->Radius())))
+  , Reach(LargestGrowth(this->MinimumClearance, this->Touched->Radius()))
   , RadiusToTry(this->Touched->Radius())
 {
   const std::size_t capacity =
@@ -54,6 +65,12 @@ void WorkingSet::Place(const Vector& position)
   this->Covered = Region::Nothing;
 }
 
+bool WorkingSet::IsEmptyAround(const Vector& x) const
+{
+  return this->EmptyRadius > 0.0 &&
+    SquaredLength(x - this->EmptyCentre) < this->EmptyRadius * this->EmptyRadius;
+}
+
 bool WorkingSet::IsInBall(const Vector& x) const
 {
   return SquaredLength(x - this->Centre) <= this->Radius * this->Radius;
@@ -63,6 +80,13 @@ bool WorkingSet::FindFirstHit(
   const Vector& goal, const ActivePlanes& active, WorkBudget& budget, FacetHit& hit)
 {
   const Vector to = goal - this->Offset;
+  if (this->Covered == Region::Ball && this->IsEmptyAround(this->Position) &&
+    this->IsEmptyAround(to))
+  {
+    this->Target = to;
+    this->IsTargetMeasured = false;
+    return true;
+  }
   const auto isAnswered = [&]
   {
     // All triangles in the ball are known: a hit inside it is the first of the whole way.
@@ -78,8 +102,9 @@ bool WorkingSet::FindFirstHit(
     }
   }
   // Another ball is worth while where the god-object has neared the rim of the old one.
-  const bool isCentred = this->Covered == Region::Ball && this->Centre == this->Position;
-  if (!isCentred && this->GatherBall(budget))
+  const bool isGatheredHere =
+    this->Covered == Region::Ball && this->GatheredAt == this->Position;
+  if (!isGatheredHere && this->GatherBall(budget))
   {
     hit = this->Scan(to, active);
     if (isAnswered())
@@ -98,22 +123,31 @@ bool WorkingSet::FindFirstHit(
 bool WorkingSet::GatherBall(WorkBudget& budget)
 {
   this->Covered = Region::Nothing;
-  this->Centre = this->Position;
+  const Vector moved = this->Position - this->GatheredAt;
+  this->GatheredAt = this->Position;
   const double surfaceRadius = this->Touched->Radius();
   const double fromOrigin = glm::length(this->Position);
   if (fromOrigin > 1.5 * surfaceRadius)
   {
     // No triangle is this far out.
+    this->Centre = this->Position;
     this->Radius = (fromOrigin - surfaceRadius) * (1.0 - 0x1p-40);
     this->RadiusToTry = surfaceRadius;
     this->Count = 0;
+    this->EmptyCentre = this->Position;
+    this->EmptyRadius = this->Radius;
+    this->MeasurePosition();
     this->Covered = Region::Ball;
     return true;
   }
   const auto capacity = static_cast<std::int32_t>(this->Found.size());
   const double smallest = 0x1p-30 * surfaceRadius;
+  const double lead = glm::length(moved);
   for (double radius = this->RadiusToTry; budget.Triangles > 0; radius *= 0.5)
   {
+    // Ahead of a steady motion, so that the ball serves longer.
+    const bool isSteady = lead > 0.0 && lead < 2.0 * radius;
+    this->Centre = this->Position + (isSteady ? Lead * radius / lead : 0.0) * moved;
     const bool isSmallest = radius <= smallest;
     TriangleList found{ this->Found.data(), isSmallest ? capacity : std::min(capacity, LargestBall) };
     this->Touched->Engine().FindInBall(ToVec3(this->Centre), radius, found);
@@ -124,10 +158,14 @@ bool WorkingSet::GatherBall(WorkBudget& budget)
       this->Fill(found, radius);
       this->Covered = Region::Ball;
       const double change = std::sqrt(WantedInBall / (this->Count + 1.0));
-      this->RadiusToTry =
-        std::min(radius * std::clamp(change, 0.5, 2.0), surfaceRadius);
+      // A surface of small triangles comes into a growing ball all at once: a radius that was too
+      // large is not tried again soon.
+      this->LargestToTry *= 1.05;
+      this->RadiusToTry = std::min(
+        { radius * std::clamp(change, 0.5, 2.0), surfaceRadius, this->LargestToTry });
       return true;
     }
+    this->LargestToTry = 0.7 * radius;
     if (isSmallest)
     {
       break;
@@ -195,15 +233,30 @@ Growth WorkingSet::GrowthOf(std::int32_t triangle, double clearance, double wayE
 void WorkingSet::Fill(const TriangleList& found, double reach)
 {
   this->Count = 0;
+  double nearest = HUGE_VAL;
+  // The corners lie anywhere in memory: all are called for before the first is waited for.
+  for (std::int32_t k = 0; k < found.Count; ++k)
+  {
+    Prefetch(&this->Touched->Triangles()[found.Indices[k]]);
+  }
+  for (std::int32_t k = 0; k < found.Count; ++k)
+  {
+    for (const std::int32_t corner : this->Touched->Triangles()[found.Indices[k]])
+    {
+      Prefetch(&this->Touched->Points()[corner]);
+    }
+  }
   for (std::int32_t k = 0; k < found.Count; ++k)
   {
     const std::int32_t id = found.Indices[k];
     const auto [a, b, c] = this->CornersOf(id);
-    if (!BoxMeetsBall(
-          glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)), this->Centre, this->Radius))
+    const Vector low = glm::min(a, glm::min(b, c));
+    const Vector high = glm::max(a, glm::max(b, c));
+    if (SquaredDistanceToBox(this->Centre, low, high) > this->Radius * this->Radius)
     {
       continue;
     }
+    nearest = std::min(nearest, SquaredDistanceToBox(this->Position, low, high));
     const Facet facet(a, b, c);
     if (!facet.HasArea())
     {
@@ -221,9 +274,9 @@ void WorkingSet::Fill(const TriangleList& found, double reach)
     this->Error[i] = facet.DistanceError(farthest);
     this->Clearance[i] = facet.Clearance(this->MinimumClearance, farthest);
   }
-  this->Measure(this->Position, this->Distance);
-  this->TurnToPosition();
-  this->SetLimits();
+  this->EmptyRadius = 0.0;
+  this->GrowEmptyBall(std::sqrt(nearest));
+  this->MeasurePosition();
 }
 
 void WorkingSet::Measure(const Vector& x, std::vector<double>& distances) const
@@ -238,6 +291,21 @@ void WorkingSet::Measure(const Vector& x, std::vector<double>& distances) const
   {
     out[i] = nx[i] * d.x + ny[i] * d.y + nz[i] * d.z - offset[i];
   }
+}
+
+void WorkingSet::MeasurePosition()
+{
+  this->Measure(this->Position, this->Distance);
+  this->IsPositionMeasured = true;
+  this->TurnToPosition();
+  this->SetLimits();
+}
+
+void WorkingSet::MeasureTarget(const Vector& to)
+{
+  this->Target = to;
+  this->Measure(to, this->TargetDistance);
+  this->IsTargetMeasured = true;
 }
 
 void WorkingSet::TurnToPosition()
@@ -267,20 +335,42 @@ void WorkingSet::TurnToPosition()
   }
 }
 
+/// `nearest`: no gathered triangle is nearer to the god-object.
+void WorkingSet::GrowEmptyBall(double nearest)
+{
+  const double rim = this->Radius - glm::length(this->Position - this->Centre);
+  const double radius = std::min(nearest - this->Reach, rim);
+  if (radius > this->EmptyRadius - glm::length(this->Position - this->EmptyCentre))
+  {
+    this->EmptyCentre = this->Position;
+    this->EmptyRadius = radius;
+  }
+}
+
 void WorkingSet::SetLimits()
 {
+  double nearest = HUGE_VAL;
   for (std::int32_t i = 0; i < this->Count; ++i)
   {
+    nearest = std::min(nearest, std::abs(this->Distance[i]));
     // Half the clearance, so that rounding along flat neighbours does not look like a hit.
     const double limit = std::min(0.5 * this->Clearance[i], this->Distance[i]);
     this->Limit[i] = this->Distance[i] < -this->Error[i] ? -HUGE_VAL : limit;
+  }
+  // No triangle is nearer than its plane.
+  if (this->Covered == Region::Ball && nearest > this->Reach)
+  {
+    this->GrowEmptyBall(nearest);
   }
 }
 
 FacetHit WorkingSet::Scan(const Vector& to, const ActivePlanes& active)
 {
-  this->Target = to;
-  this->Measure(to, this->TargetDistance);
+  if (!this->IsPositionMeasured)
+  {
+    this->MeasurePosition();
+  }
+  this->MeasureTarget(to);
   const Vector way = to - this->Position;
   const double wayError = 16.0 * UnitRoundoff * glm::length(way);
   FacetHit hit;
@@ -327,6 +417,7 @@ FacetHit WorkingSet::Scan(const Vector& to, const ActivePlanes& active)
       hit.Plane.Normal = this->Flipped[i] ? -normal : normal;
       hit.Plane.Anchor = a + this->Offset;
       hit.Plane.Clearance = clearance;
+      hit.Plane.IsFar = this->Covered == Region::Segment;
     }
   }
   return hit;
@@ -335,10 +426,20 @@ FacetHit WorkingSet::Scan(const Vector& to, const ActivePlanes& active)
 bool WorkingSet::IsClear(const Vector& target)
 {
   const Vector to = target - this->Offset;
-  if (to != this->Target)
+  if (this->Covered == Region::Ball && this->IsEmptyAround(this->Position) &&
+    this->IsEmptyAround(to))
   {
     this->Target = to;
-    this->Measure(to, this->TargetDistance);
+    this->IsTargetMeasured = false;
+    return true;
+  }
+  if (!this->IsPositionMeasured)
+  {
+    this->MeasurePosition();
+  }
+  if (!this->IsTargetMeasured || to != this->Target)
+  {
+    this->MeasureTarget(to);
   }
   for (std::int32_t i = 0; i < this->Count; ++i)
   {
@@ -375,14 +476,19 @@ bool WorkingSet::Touches(std::int32_t i, const Vector& from, const Vector& to) c
 void WorkingSet::Move()
 {
   this->Position = this->Target;
-  std::swap(this->Distance, this->TargetDistance);
   if (this->Covered == Region::Segment)
   {
     this->Covered = Region::Nothing;
     return;
   }
-  this->TurnToPosition();
-  this->SetLimits();
+  this->IsPositionMeasured = this->IsTargetMeasured;
+  if (this->IsTargetMeasured)
+  {
+    std::swap(this->Distance, this->TargetDistance);
+    this->IsTargetMeasured = false;
+    this->TurnToPosition();
+    this->SetLimits();
+  }
 }
 
 bool WorkingSet::Covers(const ActivePlane& plane, const Vector& position) const

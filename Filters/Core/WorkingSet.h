@@ -73,8 +73,11 @@ private:
   bool GatherSegment(const Vector& to, WorkBudget& budget);
   void Fill(const TriangleList& found, double reach);
   void Measure(const Vector& x, std::vector<double>& distances) const;
+  void MeasurePosition();
+  void MeasureTarget(const Vector& to);
   void TurnToPosition();
   void SetLimits();
+  void GrowEmptyBall(double nearest);
   FacetHit Scan(const Vector& to, const ActivePlanes& active);
   bool Touches(std::int32_t i, const Vector& from, const Vector& to) const;
   struct Corners
@@ -89,18 +92,26 @@ private:
     return this->Flipped[i] ? -n : n;
   }
   bool IsInBall(const Vector& x) const;
+  bool IsEmptyAround(const Vector& x) const;
 
   std::shared_ptr<const TriangleSurface> Touched;
   std::int32_t Index;
   Vector Offset;
   double MinimumClearance;
+  double Reach; ///< no facet is felt farther than this from itself
 
   Region Covered = Region::Nothing;
   Vector Centre{ 0 };       ///< of the ball; start of the segment
   double Radius = 0.0;      ///< of the ball
   double RadiusToTry = 0.0; ///< next time
+  double LargestToTry = HUGE_VAL; ///< below a radius that had too many, for some time
+  Vector GatheredAt{ 0 };   ///< where the god-object was when the last ball was gathered
+  Vector EmptyCentre{ 0 };  ///< of a ball in which no facet is felt: nothing to look at
+  double EmptyRadius = 0.0;
   Vector Position{ 0 };     ///< god-object, local frame
-  Vector Target{ 0 };       ///< what TargetDistance was measured for, local frame
+  Vector Target{ 0 };       ///< of the last cast or certificate, local frame
+  bool IsPositionMeasured = false; ///< Distance holds for Position
+  bool IsTargetMeasured = false;   ///< TargetDistance holds for Target
 
   // Structure of arrays, one entry a gathered triangle. Distances are to its plane, positive on
   // the side that the god-object is on when both sides can be touched.
