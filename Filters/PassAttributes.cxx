@@ -18,16 +18,19 @@ int PassAttributes(
   vtkSmartPointer<vtkDataSetAttributes> whole = vtk::TakeSmartPointer(from->NewInstance());
   whole->ShallowCopy(from);
   int dropped = 0;
+  bool areLonger = false;
   for (int i = whole->GetNumberOfArrays() - 1; i >= 0; --i)
   {
-    if (whole->GetAbstractArray(i)->GetNumberOfTuples() < elements)
+    const vtkIdType tuples = whole->GetAbstractArray(i)->GetNumberOfTuples();
+    areLonger = areLonger || tuples > elements;
+    if (tuples < elements)
     {
       whole->RemoveArray(i);
       ++dropped;
     }
   }
   const vtkIdType count = ids->GetNumberOfValues();
-  bool unchanged = count == elements;
+  bool unchanged = count == elements && !areLonger;
   for (vtkIdType i = 0; unchanged && i < count; ++i)
   {
     unchanged = ids->GetValue(i) == i;

@@ -161,6 +161,28 @@ TEST(GodObjectFilter, CarriesPointDataThroughMergedAndUnusedPoints)
   EXPECT_EQ(FieldValue(filter, "UnusedPoints"), 1);
 }
 
+TEST(GodObjectFilter, CutsArraysThatAreLongerThanTheirElements)
+{
+  Parts parts;
+  parts.Points = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } };
+  parts.Polys = { { 0, 1, 2 } };
+  auto input = MakePolyData(parts);
+  for (vtkDataSetAttributes* data : { static_cast<vtkDataSetAttributes*>(input->GetPointData()),
+         static_cast<vtkDataSetAttributes*>(input->GetCellData()) })
+  {
+    vtkNew<vtkDoubleArray> values;
+    values->SetName("Values");
+    values->SetNumberOfTuples(7);
+    values->Fill(2.0);
+    data->AddArray(values);
+  }
+  auto filter = Prepare(input);
+  vtkPolyData* output = filter->GetOutput();
+  EXPECT_EQ(output->GetPointData()->GetArray("Values")->GetNumberOfTuples(), 3);
+  EXPECT_EQ(output->GetCellData()->GetArray("Values")->GetNumberOfTuples(), 1);
+  EXPECT_EQ(output->GetCellData()->GetArray("Values")->GetTuple1(0), 2.0);
+}
+
 TEST(GodObjectFilter, ClosesACubeOfSixSeparateFaces)
 {
   const Parts cube = Cube();
