@@ -1,38 +1,20 @@
 #include "vtkHapticScene.h"
 
-#include "SurfaceSet.h"
-#include "TraceRecorder.h"
-#include "WorkspaceFit.h"
-#include "WorkspaceTransform.h"
+#include "HapticSceneInternals.h"
 #include "vtkActor.h"
-#include "vtkAlgorithmOutput.h"
-#include "vtkBoundingBox.h"
-#include "vtkCamera.h"
 #include "vtkGodObjectActor.h"
-#include "vtkGodObjectFilter.h"
 #include "vtkHapticDevice.h"
+#include "vtkHapticOverlay.h"
 #include "vtkHapticServo.h"
+#include "vtkMath.h"
 #include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
-#include "vtkTrivialProducer.h"
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
 #include <vector>
 
 vtkStandardNewMacro(vtkHapticScene);
-
-class vtkHapticScene::Internals
-{
-public:
-  haptics::SurfaceSet Surfaces;
-  haptics::TraceRecorder Recorder;
-  std::vector<haptics::TickRecord> Drained; // kept for its memory
-  std::optional<haptics::TickRecord> Latest;
-  haptics::SceneCell LatestCell;
-};
 
 vtkHapticScene::vtkHapticScene()
   : Internal(std::make_unique<Internals>())
@@ -48,94 +30,6 @@ void vtkHapticScene::Fail(const std::string& message)
 {
   this->ErrorMessage = message;
   vtkErrorMacro(<< message);
-}
-
-int vtkHapticScene::AddSurface(vtkActor* actor)
-{
-  if (!actor)
-  {
-    this->Fail("There is no actor to add as a surface. Give one.");
-    return -1;
-  }
-  if (const haptics::HapticSurface* known = this->Internal->Surfaces.Find(actor))
-  {
-    return known->Id();
-  }
-  this->Modified();
-  return this->Internal->Surfaces.Add(actor);
-}
-
-int vtkHapticScene::AddSurface(vtkAlgorithmOutput* geometry)
-{
-  if (!geometry)
-  {
-    this->Fail("There is no output port to add as a surface. Give one.");
-    return -1;
-  }
-  this->Modified();
-  return this->Internal->Surfaces.Add(geometry);
-}
-
-int vtkHapticScene::AddSurface(vtkPolyData* geometry)
-{
-  if (!geometry)
-  {
-    this->Fail("There is no geometry to add as a surface. Give a vtkPolyData.");
-    return -1;
-  }
-  vtkNew<vtkTrivialProducer> producer;
-  producer->SetOutput(geometry);
-  return this->AddSurface(producer->GetOutputPort());
-}
-
-bool vtkHapticScene::RemoveSurface(int id)
-{
-  const bool removed = this->Internal->Surfaces.Remove(id);
-  if (removed)
-  {
-    this->Modified();
-  }
-  return removed;
-}
-
-bool vtkHapticScene::RemoveSurface(vtkActor* actor)
-{
-  const haptics::HapticSurface* surface = this->Internal->Surfaces.Find(actor);
-  return surface && this->RemoveSurface(surface->Id());
-}
-
-void vtkHapticScene::RemoveAllSurfaces()
-{
-  this->Internal->Surfaces.Clear();
-  this->Modified();
-}
-
-int vtkHapticScene::GetNumberOfSurfaces()
-{
-  return static_cast<int>(this->Internal->Surfaces.All().size());
-}
-
-int vtkHapticScene::GetSurfaceId(int i)
-{
-  return i >= 0 && i < this->GetNumberOfSurfaces() ? this->Internal->Surfaces.All()[i]->Id() : -1;
-}
-
-vtkActor* vtkHapticScene::GetSurfaceActor(int id)
-{
-  const haptics::HapticSurface* surface = this->Internal->Surfaces.Find(id);
-  return surface ? surface->Actor() : nullptr;
-}
-
-vtkGodObjectFilter* vtkHapticScene::GetSurfaceFilter(int id)
-{
-  const haptics::HapticSurface* surface = this->Internal->Surfaces.Find(id);
-  return surface ? surface->Filter() : nullptr;
-}
-
-bool vtkHapticScene::IsSurfaceTouchable(int id)
-{
-  const haptics::HapticSurface* surface = this->Internal->Surfaces.Find(id);
-  return surface && surface->Touched();
 }
 
 void vtkHapticScene::SetDevice(vtkHapticDevice* device)
@@ -161,71 +55,6 @@ void vtkHapticScene::SetStiffness(double stiffness)
 double vtkHapticScene::GetStiffness()
 {
   return this->Servo->GetStiffness();
-}
-
-bool vtkHapticScene::SetWorkspaceTransform(vtkMatrix4x4* deviceToWorld)
-{
-  if (!deviceToWorld)
-  {
-    this->Fail("There is no matrix to take as the workspace transform. Give one.");
-    return false;
-  }
-  std::string error;
-  if (!haptics::WorkspaceTransform().SetMatrix(deviceToWorld->GetData(), error))
-  {
-    this->Fail(error + " The last one stays.");
-    return false;
-  }
-  this->Servo->SetWorkspaceTransform(deviceToWorld);
-  this->Workspace->DeepCopy(deviceToWorld);
-  this->Modified();
-  return true;
-}
-
-vtkMatrix4x4* vtkHapticScene::GetWorkspaceTransform()
-{
-  return this->Workspace;
-}
-
-bool vtkHapticScene::FitWorkspace(vtkCamera* camera)
-{
-  this->PullSurfaces();
-  vtkBoundingBox box;
-  for (const haptics::HapticSurface::Snapshot& surface : this->Internal->Surfaces.Touched())
-  {
-    for (const haptics::Vec3& point : surface->Points())
-    {
-      const haptics::Vec3& origin = surface->Origin();
-      box.AddPoint(point[0] + origin[0], point[1] + origin[1], point[2] + origin[2]);
-    }
-  }
-  if (!box.IsValid())
-  {
-    this->Fail(
-      "The workspace fits nothing: the scene has no surface that can be touched. Add one.");
-    return false;
-  }
-  double bounds[6];
-  box.GetBounds(bounds);
-  return this->FitWorkspace(bounds, camera);
-}
-
-bool vtkHapticScene::FitWorkspace(const double bounds[6], vtkCamera* camera)
-{
-  vtkHapticDevice* device = this->GetDevice();
-  if (!device)
-  {
-    this->Fail("The workspace cannot be fitted without a device. Call SetDevice() first.");
-    return false;
-  }
-  vtkNew<vtkMatrix4x4> fitted;
-  std::string error;
-  if (!haptics::FitWorkspace(device->GetWorkspaceBounds(), bounds, camera, fitted, error))
-  {
-    this->Fail("The workspace cannot be fitted: " + error + ".");
-    return false;
-  }
-  return this->SetWorkspaceTransform(fitted);
 }
 
 bool vtkHapticScene::Engage()
@@ -312,29 +141,6 @@ int vtkHapticScene::Step(int n)
   return done;
 }
 
-bool vtkHapticScene::PullSurfaces()
-{
-  std::vector<std::string> errors;
-  haptics::SurfaceSet& surfaces = this->Internal->Surfaces;
-  const bool changed = surfaces.Pull(errors);
-  if (changed)
-  {
-    const std::uint64_t generation =
-      this->Servo->PublishGodObject(std::make_unique<haptics::GodObject>(surfaces.Touched()));
-    if (!this->Servo->IsRunning())
-    {
-      surfaces.Forget(generation); // all records are drained, no tick can tell of older ones
-    }
-    surfaces.Published(generation);
-  }
-  for (const std::string& error : errors)
-  {
-    this->Fail(error);
-    this->InvokeEvent(vtkHapticScene::SurfaceErrorEvent);
-  }
-  return changed;
-}
-
 bool vtkHapticScene::PullState()
 {
   this->Servo->Update();
@@ -419,7 +225,7 @@ bool vtkHapticScene::ShowState()
   this->TouchedSurface = cell.Surface;
   this->TouchedCell = cell.Cell;
 
-  this->ShowInActor();
+  this->ShowInPicture();
   if (began)
   {
     this->InvokeEvent(vtkHapticScene::ContactBeginEvent);
@@ -456,8 +262,14 @@ vtkIdType vtkHapticScene::GetNumberOfLostTicks()
   return this->LostTicks;
 }
 
-void vtkHapticScene::ShowInActor()
+void vtkHapticScene::ShowInPicture()
 {
+  if (this->Overlay)
+  {
+    this->Overlay->SetForce(vtkMath::Norm(this->Force));
+    const double limit = this->Servo->GetEffectiveMaximumForce();
+    this->Overlay->SetMaximumForce(limit > 0.0 && limit < VTK_DOUBLE_MAX ? limit : 3.3);
+  }
   if (this->Actor)
   {
     this->Actor->SetHapticInterfacePoint(this->HapticInterfacePoint);
@@ -472,9 +284,19 @@ vtkGodObjectActor* vtkHapticScene::GetGodObjectActor()
   if (!this->Actor)
   {
     this->Actor = vtkSmartPointer<vtkGodObjectActor>::New();
-    this->ShowInActor();
+    this->ShowInPicture();
   }
   return this->Actor;
+}
+
+vtkHapticOverlay* vtkHapticScene::GetOverlay()
+{
+  if (!this->Overlay)
+  {
+    this->Overlay = vtkSmartPointer<vtkHapticOverlay>::New();
+    this->ShowInPicture();
+  }
+  return this->Overlay;
 }
 
 vtkHapticServo* vtkHapticScene::GetServo()

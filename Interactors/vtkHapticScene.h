@@ -40,6 +40,7 @@ class vtkCamera;
 class vtkGodObjectActor;
 class vtkGodObjectFilter;
 class vtkHapticDevice;
+class vtkHapticOverlay;
 class vtkHapticServo;
 class vtkMatrix4x4;
 class vtkPolyData;
@@ -112,6 +113,12 @@ public:
   bool SetWorkspaceTransform(vtkMatrix4x4* deviceToWorld);
   vtkMatrix4x4* GetWorkspaceTransform();
   ///@}
+
+  /**
+   * Where a ray first meets a surface that can be touched, on a side that can be touched; world
+   * frame, `direction` of any length. False, and `hit` as it was, where it meets none.
+   */
+  bool IntersectRay(const double from[3], const double direction[3], double hit[3]);
 
   /**
    * Maps the device's workspace to the bounds of the surfaces that can be touched, as small as
@@ -189,6 +196,11 @@ public:
    * needs VTK's rendering back end (VTK::RenderingOpenGL2) in the program; nothing else here does.
    */
   vtkGodObjectActor* GetGodObjectActor();
+  /**
+   * The force as bar and number, the read-out and the help; add it to a renderer. Never null. The
+   * first call makes it; its text needs VTK::RenderingFreeType in the program.
+   */
+  vtkHapticOverlay* GetOverlay();
   /** The servo: rate, statistics, priority. Its device and surfaces are this scene's business. */
   vtkHapticServo* GetServo();
   /** What went wrong last, for people; empty where nothing has. */
@@ -210,10 +222,11 @@ private:
   bool PullState();
   void PullRecords();
   bool ShowState();
-  void ShowInActor();
+  void ShowInPicture();
 
   vtkNew<vtkHapticServo> Servo;
   vtkSmartPointer<vtkGodObjectActor> Actor; // made when asked for: it needs a rendering back end
+  vtkSmartPointer<vtkHapticOverlay> Overlay; // as the actor
   vtkNew<vtkPolyData> Trace;
   vtkNew<vtkMatrix4x4> Workspace;
   std::string ErrorMessage;

@@ -4,7 +4,9 @@
 #include "vtkCamera.h"
 #include "vtkCommand.h"
 #include "vtkGodObjectActor.h"
+#include "vtkHapticOverlay.h"
 #include "vtkHapticScene.h"
+#include "vtkMouseHapticDevice.h"
 #include "vtkObjectFactory.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderWindowInteractor.h"
@@ -13,8 +15,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 vtkStandardNewMacro(vtkInteractorStyleHaptic);
+
+namespace
+{
+constexpr const char* MouseHelp = "move         hand, in the plane of the view\n"
+                                  "wheel        hand to the surface, then into it\n"
+                                  "space held   stroke the surface\n"
+                                  "Ctrl+wheel   zoom\n"
+                                  "\n";
+constexpr const char* KeysHelp = "drag         turn the camera (Shift: pan, Ctrl: roll)\n"
+                                 "h            engage or release the hand\n"
+                                 "v            fit the hand's space to the view\n"
+                                 "b            trail\n"
+                                 "r   f        reset the camera, fly to the cursor\n"
+                                 "w   s        wireframe, surface\n"
+                                 "?            this help\n"
+                                 "q            quit";
+}
 
 vtkInteractorStyleHaptic::vtkInteractorStyleHaptic()
   : Scene(vtkSmartPointer<vtkHapticScene>::New())
@@ -191,8 +211,36 @@ void vtkInteractorStyleHaptic::OnClippingRangeReset(
   self->Scene->GetGodObjectActor()->IncludeInClippingRange(vtkRenderer::SafeDownCast(caller));
 }
 
+void vtkInteractorStyleHaptic::ConnectMouse()
+{
+  auto* mouse = vtkMouseHapticDevice::SafeDownCast(this->Scene->GetDevice());
+  if (mouse && this->Interactor && !mouse->GetInteractor())
+  {
+    mouse->SetInteractor(this->Interactor);
+    mouse->SetScene(this->Scene);
+  }
+}
+
+void vtkInteractorStyleHaptic::ToggleHelp()
+{
+  vtkHapticOverlay* overlay = this->Scene->GetOverlay();
+  vtkRenderer* renderer = this->FindRenderer();
+  if (!renderer)
+  {
+    return;
+  }
+  if (!renderer->HasViewProp(overlay))
+  {
+    renderer->AddViewProp(overlay);
+  }
+  const bool mouse = vtkMouseHapticDevice::SafeDownCast(this->Scene->GetDevice()) != nullptr;
+  overlay->SetHelp(std::string(mouse ? MouseHelp : "") + KeysHelp);
+  overlay->SetShowHelp(!overlay->GetShowHelp());
+}
+
 bool vtkInteractorStyleHaptic::UpdateScene()
 {
+  this->ConnectMouse();
   if (!this->Scene->Update())
   {
     return false;
@@ -223,6 +271,10 @@ void vtkInteractorStyleHaptic::OnChar()
       {
         this->Scene->Engage();
       }
+      break;
+    case '?':
+      this->ToggleHelp();
+      this->Interactor->Render();
       break;
     case 'v':
     case 'V':

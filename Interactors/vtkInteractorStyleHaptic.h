@@ -10,6 +10,10 @@
  * - h: engage the haptic scene, or release it
  * - v: map the device's workspace to the surfaces as the camera sees them
  * - b: show or hide the trail behind the god-object
+ * - ?: show or hide the list of all keys
+ *
+ * A vtkMouseHapticDevice that is the scene's device is connected to the interactor; it takes the
+ * wheel and the space bar for itself while it is open.
  *
  * When the interactor exits (the key q, or its window is closed) the scene is released: no force
  * stays on a device whose window is gone. GUI thread.
@@ -80,6 +84,8 @@ private:
     vtkObject* caller, unsigned long event, void* clientData, void* callData);
   static void OnClippingRangeReset(
     vtkObject* caller, unsigned long event, void* clientData, void* callData);
+  void ConnectMouse();
+  void ToggleHelp();
   void StartTimer();
   void StopTimer();
   vtkRenderer* FindRenderer();

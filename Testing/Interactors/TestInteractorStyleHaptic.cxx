@@ -1,62 +1,12 @@
-#include "SceneTestTools.h"
+#include "StyleTestTools.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCamera.h"
-#include "vtkGodObjectActor.h"
-#include "vtkInteractorStyleHaptic.h"
 #include "vtkMatrix4x4.h"
-#include "vtkPolyDataMapper.h"
-#include "vtkRenderWindow.h"
-#include "vtkRenderWindowInteractor.h"
-#include "vtkRenderer.h"
 
 #include <gtest/gtest.h>
 
 #include <chrono>
-
-namespace
-{
-/// A window whose events the test sends itself, one by one.
-struct Window
-{
-  LedHand Hand;
-  vtkNew<vtkRenderer> Renderer;
-  vtkNew<vtkRenderWindow> RenderWindow;
-  vtkNew<vtkRenderWindowInteractor> Interactor;
-  vtkNew<vtkInteractorStyleHaptic> Style;
-  vtkNew<vtkActor> Table;
-
-  Window()
-  {
-    vtkNew<vtkPolyDataMapper> mapper;
-    mapper->SetInputData(MakeTable(0.0));
-    this->Table->SetMapper(mapper);
-    this->Renderer->AddActor(this->Table);
-    this->Renderer->AddViewProp(this->Hand.Scene->GetGodObjectActor());
-    this->RenderWindow->SetSize(100, 100);
-    this->RenderWindow->AddRenderer(this->Renderer);
-    this->Interactor->SetRenderWindow(this->RenderWindow);
-    this->Style->SetScene(this->Hand.Scene);
-    this->Interactor->SetInteractorStyle(this->Style);
-    this->Interactor->Initialize();
-    this->Renderer->ResetCamera();
-    this->RenderWindow->Render();
-    this->Hand.Scene->AddSurface(this->Table);
-    this->Hand.MoveTo(0.01);
-    this->Timer();
-  }
-  void Timer()
-  {
-    int id = this->Style->GetTimerId();
-    this->Interactor->InvokeEvent(vtkCommand::TimerEvent, &id);
-  }
-  void Press(char key)
-  {
-    this->Interactor->SetKeyEventInformation(0, 0, key, 0, nullptr);
-    this->Interactor->InvokeEvent(vtkCommand::CharEvent);
-  }
-};
-}
 
 TEST(InteractorStyleHaptic, RendersOnlyWhenSomethingHasChanged)
 {

@@ -1,0 +1,237 @@
+#include "vtkHapticOverlay.h"
+
+#include "ForceColor.h"
+#include "vtkActor2D.h"
+#include "vtkCellArray.h"
+#include "vtkObjectFactory.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkPolyDataMapper2D.h"
+#include "vtkProperty2D.h"
+#include "vtkTextActor.h"
+#include "vtkTextProperty.h"
+#include "vtkViewport.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+vtkStandardNewMacro(vtkHapticOverlay);
+
+namespace
+{
+constexpr double GroundColor[3] = { 0.09, 0.11, 0.15 };
+constexpr double GroundOpacity = 0.72;
+constexpr int Margin = 12; // [pixel]
+
+void MakeText(vtkTextActor* part, int vertical)
+{
+  vtkTextProperty* look = part->GetTextProperty();
+  look->SetFontFamilyToArial();
+  look->SetColor(0.96, 0.97, 0.98);
+  look->SetBackgroundColor(GroundColor[0], GroundColor[1], GroundColor[2]);
+  look->SetBackgroundOpacity(GroundOpacity);
+  look->SetJustificationToLeft();
+  look->SetVerticalJustification(vertical);
+  look->SetLineSpacing(1.15);
+  part->SetTextScaleModeToNone();
+  part->PickableOff();
+}
+
+void MakeBox(vtkActor2D* part, vtkPolyData* box)
+{
+  vtkNew<vtkPolyDataMapper2D> mapper;
+  mapper->SetInputData(box);
+  part->SetMapper(mapper);
+  part->PickableOff();
+}
+
+/// A rectangle with its lower left corner at (x, y) [pixel].
+void SetBox(vtkPolyData* box, double x, double y, double width, double height)
+{
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(x, y, 0.0);
+  points->InsertNextPoint(x + width, y, 0.0);
+  points->InsertNextPoint(x + width, y + height, 0.0);
+  points->InsertNextPoint(x, y + height, 0.0);
+  vtkNew<vtkCellArray> cells;
+  const vtkIdType corners[4] = { 0, 1, 2, 3 };
+  cells->InsertNextCell(4, corners);
+  box->SetPoints(points);
+  box->SetPolys(cells);
+}
+
+/// Text with a little room around it on its ground.
+std::string Padded(const std::string& text)
+{
+  std::string padded = "  ";
+  for (const char c : text)
+  {
+    padded += c;
+    if (c == '\n')
+    {
+      padded += "  ";
+    }
+  }
+  return padded + "  ";
+}
+}
+
+vtkHapticOverlay::vtkHapticOverlay()
+{
+  this->PickableOff();
+  this->UseBoundsOff();
+  MakeBox(this->GroundPart, this->Ground);
+  MakeBox(this->BarPart, this->Bar);
+  this->GroundPart->GetProperty()->SetColor(GroundColor[0], GroundColor[1], GroundColor[2]);
+  this->GroundPart->GetProperty()->SetOpacity(GroundOpacity);
+  MakeText(this->NumberPart, VTK_TEXT_CENTERED);
+  this->NumberPart->GetTextProperty()->SetBackgroundOpacity(0.0);
+  this->NumberPart->GetTextProperty()->BoldOn();
+  MakeText(this->ReadoutPart, VTK_TEXT_BOTTOM);
+  MakeText(this->HelpPart, VTK_TEXT_TOP);
+  this->HelpPart->GetTextProperty()->SetFontFamilyToCourier(); // for its columns
+}
+
+vtkHapticOverlay::~vtkHapticOverlay() = default;
+
+void vtkHapticOverlay::SetForce(double force)
+{
+  if (!std::isfinite(force) || force < 0.0)
+  {
+    vtkErrorMacro("A force of " << force << " N cannot be shown; " << this->Force
+                                << " N stays. Give its strength, finite and >= 0.");
+    return;
+  }
+  if (force != this->Force)
+  {
+    this->Force = force;
+    this->Modified();
+  }
+}
+
+void vtkHapticOverlay::SetMaximumForce(double force)
+{
+  if (!std::isfinite(force) || !(force > 0.0))
+  {
+    vtkErrorMacro("A bar cannot be filled by " << force << " N; " << this->MaximumForce
+                                               << " N stays. Give a finite force > 0.");
+    return;
+  }
+  if (force != this->MaximumForce)
+  {
+    this->MaximumForce = force;
+    this->Modified();
+  }
+}
+
+void vtkHapticOverlay::SetReadout(const std::string& text)
+{
+  if (text != this->Readout)
+  {
+    this->Readout = text;
+    this->Modified();
+  }
+}
+
+void vtkHapticOverlay::SetHelp(const std::string& text)
+{
+  if (text != this->Help)
+  {
+    this->Help = text;
+    this->Modified();
+  }
+}
+
+void vtkHapticOverlay::ArrangeBar()
+{
+  const double height = 1.9 * this->FontSize;
+  const double number = 5.0 * this->FontSize;
+  const double length = 11.0 * this->FontSize;
+  const double gap = 0.5 * this->FontSize;
+  SetBox(this->Ground, Margin, Margin, length + number + 2.0 * gap, height);
+  const double share = std::min(1.0, this->Force / this->MaximumForce);
+  SetBox(this->Bar, Margin + gap, Margin + gap, share * length, height - 2.0 * gap);
+  const std::array<double, 3> color = haptics::ForceColor(share);
+  this->BarPart->GetProperty()->SetColor(color[0], color[1], color[2]);
+
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.2f N", this->Force);
+  this->NumberPart->SetInput(text);
+  this->NumberPart->SetPosition(Margin + length + 2.0 * gap, Margin + 0.5 * height);
+}
+
+void vtkHapticOverlay::Arrange(vtkViewport* viewport)
+{
+  for (vtkTextActor* part : { this->NumberPart.Get(), this->ReadoutPart.Get(), this->HelpPart.Get() })
+  {
+    part->GetTextProperty()->SetFontSize(this->FontSize);
+  }
+  this->ArrangeBar();
+  this->GroundPart->SetVisibility(this->ShowForce);
+  this->BarPart->SetVisibility(this->ShowForce && this->Force > 0.0);
+  this->NumberPart->SetVisibility(this->ShowForce);
+
+  const double above = this->ShowForce ? Margin + 1.9 * this->FontSize + 6.0 : Margin;
+  this->ReadoutPart->SetInput(Padded(this->Readout).c_str());
+  this->ReadoutPart->SetPosition(Margin, above);
+  this->ReadoutPart->SetVisibility(this->ShowReadout && !this->Readout.empty());
+
+  this->HelpPart->SetInput(Padded(this->Help).c_str());
+  this->HelpPart->SetPosition(Margin, viewport->GetSize()[1] - Margin);
+  this->HelpPart->SetVisibility(this->ShowHelp && !this->Help.empty());
+}
+
+std::array<vtkActor2D*, 5> vtkHapticOverlay::Parts() const
+{
+  return { { this->GroundPart, this->BarPart, this->NumberPart, this->ReadoutPart,
+    this->HelpPart } };
+}
+
+int vtkHapticOverlay::RenderOpaqueGeometry(vtkViewport* viewport)
+{
+  this->Arrange(viewport);
+  int rendered = 0;
+  for (vtkActor2D* part : this->Parts())
+  {
+    if (part->GetVisibility())
+    {
+      rendered += part->RenderOpaqueGeometry(viewport);
+    }
+  }
+  return rendered;
+}
+
+int vtkHapticOverlay::RenderOverlay(vtkViewport* viewport)
+{
+  int rendered = 0;
+  for (vtkActor2D* part : this->Parts())
+  {
+    if (part->GetVisibility())
+    {
+      rendered += part->RenderOverlay(viewport);
+    }
+  }
+  return rendered;
+}
+
+void vtkHapticOverlay::ReleaseGraphicsResources(vtkWindow* window)
+{
+  for (vtkActor2D* part : this->Parts())
+  {
+    part->ReleaseGraphicsResources(window);
+  }
+  this->Superclass::ReleaseGraphicsResources(window);
+}
+
+void vtkHapticOverlay::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Force [N]: " << this->Force << " of " << this->MaximumForce << "\n";
+  os << indent << "Readout: " << this->Readout << "\n";
+  os << indent << "Help: " << this->Help << "\n";
+  os << indent << "ShowForce: " << (this->ShowForce ? "On" : "Off") << "\n";
+  os << indent << "ShowReadout: " << (this->ShowReadout ? "On" : "Off") << "\n";
+  os << indent << "ShowHelp: " << (this->ShowHelp ? "On" : "Off") << "\n";
+  os << indent << "FontSize [pixel]: " << this->FontSize << "\n";
+}

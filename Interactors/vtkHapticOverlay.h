@@ -1,0 +1,110 @@
+/**
+ * @class   vtkHapticOverlay
+ * @brief   What a hand feels, over the picture: a bar and a number of the force, a few lines, help.
+ *
+ * At the lower left the force as a bar and a number [N], and above them the read-out: free lines of
+ * text, for a vtkHapticScene the values at the contact. At the upper left the help, a list of keys,
+ * while ShowHelp is on. Text has a dark ground of its own, so that it can be read over any picture.
+ *
+ * Needs VTK::RenderingFreeType in the program for its text. Not pickable, without bounds.
+ * A vtkHapticScene keeps one up to date; it can be driven by hand as well. GUI thread.
+ *
+ * @sa vtkHapticScene vtkGodObjectActor
+ */
+#ifndef vtkHapticOverlay_h
+#define vtkHapticOverlay_h
+
+#include "vtkHapticsInteractorsModule.h"
+#include "vtkNew.h"
+#include "vtkProp.h"
+
+#include <array>
+#include <string>
+
+class vtkActor2D;
+class vtkPolyData;
+class vtkTextActor;
+
+class VTKHAPTICSINTERACTORS_EXPORT vtkHapticOverlay : public vtkProp
+{
+public:
+  static vtkHapticOverlay* New();
+  vtkTypeMacro(vtkHapticOverlay, vtkProp);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /** Strength of the force [N]. Default 0; finite and >= 0, else an error and no change. */
+  void SetForce(double force);
+  vtkGetMacro(Force, double);
+  ///@}
+  ///@{
+  /** Force that fills the bar [N], the limit of the device. Default 3.3; finite and > 0. */
+  void SetMaximumForce(double force);
+  vtkGetMacro(MaximumForce, double);
+  ///@}
+  ///@{
+  /** Lines above the bar. Default none. */
+  void SetReadout(const std::string& text);
+  std::string GetReadout() const { return this->Readout; }
+  ///@}
+  ///@{
+  /** Lines at the upper left, shown while ShowHelp is on. Default none. */
+  void SetHelp(const std::string& text);
+  std::string GetHelp() const { return this->Help; }
+  ///@}
+  ///@{
+  /** What is shown: the force (default on), the read-out (default on), the help (default off). */
+  vtkSetMacro(ShowForce, bool);
+  vtkGetMacro(ShowForce, bool);
+  vtkBooleanMacro(ShowForce, bool);
+  vtkSetMacro(ShowReadout, bool);
+  vtkGetMacro(ShowReadout, bool);
+  vtkBooleanMacro(ShowReadout, bool);
+  vtkSetMacro(ShowHelp, bool);
+  vtkGetMacro(ShowHelp, bool);
+  vtkBooleanMacro(ShowHelp, bool);
+  ///@}
+  ///@{
+  /** Height of the text [pixel]. Default 14; 6 to 72. */
+  vtkSetClampMacro(FontSize, int, 6, 72);
+  vtkGetMacro(FontSize, int);
+  ///@}
+
+  ///@{
+  /** The rendering protocol of vtkProp. */
+  int RenderOpaqueGeometry(vtkViewport* viewport) override;
+  int RenderOverlay(vtkViewport* viewport) override;
+  void ReleaseGraphicsResources(vtkWindow* window) override;
+  ///@}
+
+protected:
+  vtkHapticOverlay();
+  ~vtkHapticOverlay() override;
+
+private:
+  vtkHapticOverlay(const vtkHapticOverlay&) = delete;
+  void operator=(const vtkHapticOverlay&) = delete;
+
+  void Arrange(vtkViewport* viewport);
+  void ArrangeBar();
+  std::array<vtkActor2D*, 5> Parts() const;
+
+  double Force = 0.0;
+  double MaximumForce = 3.3;
+  std::string Readout;
+  std::string Help;
+  bool ShowForce = true;
+  bool ShowReadout = true;
+  bool ShowHelp = false;
+  int FontSize = 14;
+
+  vtkNew<vtkActor2D> GroundPart;
+  vtkNew<vtkActor2D> BarPart;
+  vtkNew<vtkTextActor> NumberPart;
+  vtkNew<vtkTextActor> ReadoutPart;
+  vtkNew<vtkTextActor> HelpPart;
+  vtkNew<vtkPolyData> Ground;
+  vtkNew<vtkPolyData> Bar;
+};
+
+#endif

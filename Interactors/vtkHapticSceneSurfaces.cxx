@@ -1,0 +1,213 @@
+// What a vtkHapticScene touches, and how the device's workspace lies over it.
+#include "vtkHapticScene.h"
+
+#include "HapticSceneInternals.h"
+#include "SurfaceRay.h"
+#include "WorkspaceFit.h"
+#include "WorkspaceTransform.h"
+#include "vtkActor.h"
+#include "vtkAlgorithmOutput.h"
+#include "vtkBoundingBox.h"
+#include "vtkCamera.h"
+#include "vtkGodObjectFilter.h"
+#include "vtkHapticDevice.h"
+#include "vtkHapticServo.h"
+#include "vtkMatrix4x4.h"
+#include "vtkPolyData.h"
+#include "vtkTrivialProducer.h"
+
+int vtkHapticScene::AddSurface(vtkActor* actor)
+{
+  if (!actor)
+  {
+    this->Fail("There is no actor to add as a surface. Give one.");
+    return -1;
+  }
+  if (const haptics::HapticSurface* known = this->Internal->Surfaces.Find(actor))
+  {
+    return known->Id();
+  }
+  this->Modified();
+  return this->Internal->Surfaces.Add(actor);
+}
+
+int vtkHapticScene::AddSurface(vtkAlgorithmOutput* geometry)
+{
+  if (!geometry)
+  {
+    this->Fail("There is no output port to add as a surface. Give one.");
+    return -1;
+  }
+  this->Modified();
+  return this->Internal->Surfaces.Add(geometry);
+}
+
+int vtkHapticScene::AddSurface(vtkPolyData* geometry)
+{
+  if (!geometry)
+  {
+    this->Fail("There is no geometry to add as a surface. Give a vtkPolyData.");
+    return -1;
+  }
+  vtkNew<vtkTrivialProducer> producer;
+  producer->SetOutput(geometry);
+  return this->AddSurface(producer->GetOutputPort());
+}
+
+bool vtkHapticScene::RemoveSurface(int id)
+{
+  const bool removed = this->Internal->Surfaces.Remove(id);
+  if (removed)
+  {
+    this->Modified();
+  }
+  return removed;
+}
+
+bool vtkHapticScene::RemoveSurface(vtkActor* actor)
+{
+  const haptics::HapticSurface* surface = this->Internal->Surfaces.Find(actor);
+  return surface && this->RemoveSurface(surface->Id());
+}
+
+void vtkHapticScene::RemoveAllSurfaces()
+{
+  this->Internal->Surfaces.Clear();
+  this->Modified();
+}
+
+int vtkHapticScene::GetNumberOfSurfaces()
+{
+  return static_cast<int>(this->Internal->Surfaces.All().size());
+}
+
+int vtkHapticScene::GetSurfaceId(int i)
+{
+  return i >= 0 && i < this->GetNumberOfSurfaces() ? this->Internal->Surfaces.All()[i]->Id() : -1;
+}
+
+vtkActor* vtkHapticScene::GetSurfaceActor(int id)
+{
+  const haptics::HapticSurface* surface = this->Internal->Surfaces.Find(id);
+  return surface ? surface->Actor() : nullptr;
+}
+
+vtkGodObjectFilter* vtkHapticScene::GetSurfaceFilter(int id)
+{
+  const haptics::HapticSurface* surface = this->Internal->Surfaces.Find(id);
+  return surface ? surface->Filter() : nullptr;
+}
+
+bool vtkHapticScene::IsSurfaceTouchable(int id)
+{
+  const haptics::HapticSurface* surface = this->Internal->Surfaces.Find(id);
+  return surface && surface->Touched();
+}
+
+bool vtkHapticScene::SetWorkspaceTransform(vtkMatrix4x4* deviceToWorld)
+{
+  if (!deviceToWorld)
+  {
+    this->Fail("There is no matrix to take as the workspace transform. Give one.");
+    return false;
+  }
+  std::string error;
+  if (!haptics::WorkspaceTransform().SetMatrix(deviceToWorld->GetData(), error))
+  {
+    this->Fail(error + " The last one stays.");
+    return false;
+  }
+  this->Servo->SetWorkspaceTransform(deviceToWorld);
+  this->Workspace->DeepCopy(deviceToWorld);
+  this->Modified();
+  return true;
+}
+
+vtkMatrix4x4* vtkHapticScene::GetWorkspaceTransform()
+{
+  return this->Workspace;
+}
+
+bool vtkHapticScene::FitWorkspace(vtkCamera* camera)
+{
+  this->PullSurfaces();
+  vtkBoundingBox box;
+  for (const haptics::HapticSurface::Snapshot& surface : this->Internal->Surfaces.Touched())
+  {
+    for (const haptics::Vec3& point : surface->Points())
+    {
+      const haptics::Vec3& origin = surface->Origin();
+      box.AddPoint(point[0] + origin[0], point[1] + origin[1], point[2] + origin[2]);
+    }
+  }
+  if (!box.IsValid())
+  {
+    this->Fail(
+      "The workspace fits nothing: the scene has no surface that can be touched. Add one.");
+    return false;
+  }
+  double bounds[6];
+  box.GetBounds(bounds);
+  return this->FitWorkspace(bounds, camera);
+}
+
+bool vtkHapticScene::FitWorkspace(const double bounds[6], vtkCamera* camera)
+{
+  vtkHapticDevice* device = this->GetDevice();
+  if (!device)
+  {
+    this->Fail("The workspace cannot be fitted without a device. Call SetDevice() first.");
+    return false;
+  }
+  vtkNew<vtkMatrix4x4> fitted;
+  std::string error;
+  if (!haptics::FitWorkspace(device->GetWorkspaceBounds(), bounds, camera, fitted, error))
+  {
+    this->Fail("The workspace cannot be fitted: " + error + ".");
+    return false;
+  }
+  return this->SetWorkspaceTransform(fitted);
+}
+
+bool vtkHapticScene::PullSurfaces()
+{
+  std::vector<std::string> errors;
+  haptics::SurfaceSet& surfaces = this->Internal->Surfaces;
+  const bool changed = surfaces.Pull(errors);
+  if (changed)
+  {
+    const std::uint64_t generation =
+      this->Servo->PublishGodObject(std::make_unique<haptics::GodObject>(surfaces.Touched()));
+    if (!this->Servo->IsRunning())
+    {
+      surfaces.Forget(generation); // all records are drained, no tick can tell of older ones
+    }
+    surfaces.Published(generation);
+  }
+  for (const std::string& error : errors)
+  {
+    this->Fail(error);
+    this->InvokeEvent(vtkHapticScene::SurfaceErrorEvent);
+  }
+  return changed;
+}
+
+bool vtkHapticScene::IntersectRay(
+  const double from[3], const double direction[3], double hit[3])
+{
+  std::optional<double> nearest;
+  for (const haptics::HapticSurface::Snapshot& surface : this->Internal->Surfaces.Touched())
+  {
+    const std::optional<double> t = haptics::CastRay(*surface, { { from[0], from[1], from[2] } },
+      { { direction[0], direction[1], direction[2] } });
+    if (t && (!nearest || *t < *nearest))
+    {
+      nearest = t;
+    }
+  }
+  for (int i = 0; nearest && i < 3; ++i)
+  {
+    hit[i] = from[i] + *nearest * direction[i];
+  }
+  return nearest.has_value();
+}

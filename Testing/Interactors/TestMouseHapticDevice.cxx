@@ -1,0 +1,182 @@
+// The table lies at z = 0 and fills the window; the camera looks down on it. The mouse's window is
+// stepped in virtual time.
+//
+//        camera  |
+//                v   hand   o  under the cursor
+//     ------------------------------ table
+#include "StyleTestTools.h"
+
+#include "vtkCamera.h"
+#include "vtkHapticOverlay.h"
+#include "vtkMouseHapticDevice.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+struct MouseWindow : Window
+{
+  vtkNew<vtkMouseHapticDevice> Mouse;
+
+  MouseWindow()
+  {
+    this->Hand.Scene->SetDevice(this->Mouse);
+    this->Mouse->SetTarget(0.0, 0.0, 0.02);
+    this->Mouse->SetSmoothing(0.0);
+    this->Timer(); // the style connects the mouse
+    this->Tick();
+  }
+  void Tick() { this->Hand.Scene->Step(1); }
+  double Height() { return this->Hand.Scene->GetHapticInterfacePoint()[2]; }
+  /// Where a point of the world is in the window [pixel].
+  void Project(const double world[3], double display[2])
+  {
+    this->Renderer->SetWorldPoint(world[0], world[1], world[2], 1.0);
+    this->Renderer->WorldToDisplay();
+    std::copy_n(this->Renderer->GetDisplayPoint(), 2, display);
+  }
+};
+}
+
+TEST(MouseHapticDevice, KeepsTheHandUnderTheCursorInThePlaneOfTheView)
+{
+  MouseWindow window;
+  EXPECT_EQ(window.Mouse->GetInteractor(), window.Interactor.Get());
+  window.Send(vtkCommand::MouseMoveEvent, 70, 35);
+  window.Tick();
+  double display[2];
+  window.Project(window.Hand.Scene->GetHapticInterfacePoint(), display);
+  EXPECT_NEAR(display[0], 70.0, 1e-6);
+  EXPECT_NEAR(display[1], 35.0, 1e-6);
+  EXPECT_NEAR(window.Height(), 0.02, 1e-12) << "no nearer and no farther";
+  EXPECT_FALSE(window.Hand.Scene->GetTouching());
+}
+
+TEST(MouseHapticDevice, TheWheelLandsOnTheSurfaceThenPressesAStepANotch)
+{
+  MouseWindow window;
+  window.Send(vtkCommand::MouseMoveEvent, 50, 50);
+  window.Tick();
+  window.Send(vtkCommand::MouseWheelForwardEvent, 50, 50);
+  window.Tick();
+  EXPECT_NEAR(window.Height(), -0.001, 1e-9);
+  EXPECT_TRUE(window.Hand.Scene->GetTouching());
+  window.Send(vtkCommand::MouseWheelForwardEvent, 50, 50);
+  window.Tick();
+  EXPECT_NEAR(window.Height(), -0.002, 1e-9);
+  EXPECT_NEAR(window.Hand.Scene->GetForce()[2], 500.0 * 0.002, 500.0 * Clearance);
+  for (int i = 0; i < 3; ++i)
+  {
+    window.Send(vtkCommand::MouseWheelBackwardEvent, 50, 50);
+    window.Tick();
+  }
+  EXPECT_FALSE(window.Hand.Scene->GetTouching());
+  EXPECT_EQ(window.Hand.Scene->GetForce()[2], 0.0);
+}
+
+TEST(MouseHapticDevice, TheWheelZoomsOnlyWithControl)
+{
+  MouseWindow window;
+  const double before = window.Renderer->GetActiveCamera()->GetDistance();
+  window.Send(vtkCommand::MouseWheelForwardEvent, 50, 50);
+  EXPECT_EQ(window.Renderer->GetActiveCamera()->GetDistance(), before);
+  window.Send(vtkCommand::MouseWheelForwardEvent, 50, 50, nullptr, true);
+  EXPECT_LT(window.Renderer->GetActiveCamera()->GetDistance(), before);
+}
+
+TEST(MouseHapticDevice, TheSpaceBarPressesFollowsTheSurfaceAndLiftsOff)
+{
+  MouseWindow window;
+  window.Table->RotateX(20.0); // a plane of the view would leave it
+  window.Timer();
+  window.Send(vtkCommand::MouseMoveEvent, 50, 50);
+  window.Send(vtkCommand::KeyPressEvent, 50, 50, "space");
+  for (const int y : { 50, 40, 30 })
+  {
+    window.Send(vtkCommand::MouseMoveEvent, 50, y);
+    window.Tick();
+    EXPECT_TRUE(window.Hand.Scene->GetTouching());
+    // 3 mm along the view: across the tilted table that is less, but for the view's own angle.
+    EXPECT_NEAR(window.Hand.Scene->GetPenetration(), 0.003 * std::cos(0.35), 0.0005);
+  }
+  window.Send(vtkCommand::KeyReleaseEvent, 50, 30, "space");
+  window.Tick();
+  EXPECT_FALSE(window.Hand.Scene->GetTouching());
+}
+
+TEST(MouseHapticDevice, StaysWhileTheCameraIsDragged)
+{
+  MouseWindow window;
+  window.Send(vtkCommand::MouseMoveEvent, 50, 50);
+  window.Send(vtkCommand::LeftButtonPressEvent, 50, 50);
+  double before[3];
+  window.Mouse->GetTarget(before);
+  window.Send(vtkCommand::MouseMoveEvent, 80, 60);
+  double after[3];
+  window.Mouse->GetTarget(after);
+  EXPECT_TRUE(std::equal(before, before + 3, after));
+  EXPECT_GT(std::abs(window.Renderer->GetActiveCamera()->GetPosition()[0]), 1e-3);
+  window.Send(vtkCommand::LeftButtonReleaseEvent, 80, 60);
+  window.Send(vtkCommand::MouseMoveEvent, 81, 60);
+  window.Mouse->GetTarget(after);
+  EXPECT_NE(before[0], after[0]);
+}
+
+TEST(MouseHapticDevice, TheHandComesSmoothlyAndThenRests)
+{
+  MouseWindow window;
+  window.Mouse->Close();
+  window.Mouse->SetSmoothing(0.012);
+  window.Mouse->Open();
+  window.Tick();
+  window.Mouse->SetTarget(0.01, 0.0, 0.02);
+  window.Hand.Scene->Step(12);
+  const double after12 = window.Hand.Scene->GetHapticInterfacePoint()[0];
+  EXPECT_NEAR(after12, 0.01 * (1.0 - std::exp(-1.0)), 1e-3) << "the time constant";
+  window.Hand.Scene->Step(200);
+  EXPECT_EQ(window.Hand.Scene->GetHapticInterfacePoint()[0], 0.01) << "not nearly, but there";
+  const vtkIdType renders = window.Style->GetNumberOfRenders();
+  window.Timer();
+  window.Hand.Scene->Step(50);
+  window.Timer();
+  EXPECT_EQ(window.Style->GetNumberOfRenders(), renders) << "a hand at rest was drawn again";
+}
+
+TEST(MouseHapticDevice, WorksInParallelProjectionAndWithoutSceneOrInteractorDoesNothing)
+{
+  MouseWindow window;
+  window.Renderer->GetActiveCamera()->ParallelProjectionOn();
+  window.Send(vtkCommand::MouseMoveEvent, 30, 60);
+  window.Tick();
+  double display[2];
+  window.Project(window.Hand.Scene->GetHapticInterfacePoint(), display);
+  EXPECT_NEAR(display[0], 30.0, 1e-6);
+
+  vtkNew<vtkMouseHapticDevice> alone;
+  double before[3];
+  alone->GetTarget(before);
+  alone->MoveTo(3, 4);
+  alone->Turn(1);
+  alone->SetPressed(true);
+  double after[3];
+  alone->GetTarget(after);
+  EXPECT_TRUE(std::equal(before, before + 3, after));
+  EventCounter errors(alone, vtkCommand::ErrorEvent);
+  alone->SetTarget(std::nan(""), 0.0, 0.0);
+  EXPECT_EQ(errors.Count, 1);
+}
+
+TEST(InteractorStyleHaptic, TheHelpNamesItsKeysAndTheMouse)
+{
+  MouseWindow window;
+  window.Press('?');
+  vtkHapticOverlay* overlay = window.Hand.Scene->GetOverlay();
+  EXPECT_TRUE(overlay->GetShowHelp());
+  EXPECT_TRUE(window.Renderer->HasViewProp(overlay));
+  for (const char* named : { "space", "wheel", "engage", "quit" })
+  {
+    EXPECT_NE(overlay->GetHelp().find(named), std::string::npos) << named;
+  }
+  window.Press('?');
+  EXPECT_FALSE(overlay->GetShowHelp());
+}
