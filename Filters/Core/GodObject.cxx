@@ -129,6 +129,10 @@ private:
       {
         this->MoveTowards(this->Position + hit.Fraction * (goal - this->Position));
       }
+      if (hit.IsWaypoint)
+      {
+        continue;
+      }
       if (this->Active.Has(hit.Plane.Facet))
       {
         return false;

@@ -102,8 +102,9 @@ std::shared_ptr<const TriangleSurface> TriangleSurface::Build(
     error = "no triangle of the surface has an area";
     return nullptr;
   }
+  const double crackWidth = std::min(options.CrackWidth, surface->SurfaceRadius);
   surface->MinimumClearance =
-    std::max(1024.0 * UnitRoundoff * surface->SurfaceRadius, 0.25 * options.CrackWidth);
+    std::max(1024.0 * UnitRoundoff * surface->SurfaceRadius, 0.25 * crackWidth);
   surface->Found = AnalyseSurface(surface->Mesh.Points, surface->Mesh.Triangles, surface->Adjacent);
   surface->Touched = options.TouchedSide;
   if (surface->Touched == Side::Automatic)

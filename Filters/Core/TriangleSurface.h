@@ -38,7 +38,8 @@ struct SurfaceOptions
   Side TouchedSide = Side::Automatic;
   EngineKind Engine = EngineKind::Automatic;
 
-  /// Widest gap between facets that still feels closed [world unit]; default 0, finite and >= 0.
+  /// Widest gap between facets that still feels closed [world unit]; default 0, finite and >= 0;
+  /// more than the surface's Radius() counts as that.
   /// Points that were once stored in single precision have gaps of about 1e-7 of the surface's
   /// size where facets meet without sharing corners; vtkGodObjectFilter sets that by itself.
   double CrackWidth = 0.0;

@@ -76,6 +76,12 @@ bool WorkingSet::IsInBall(const Vector& x) const
   return SquaredLength(x - this->Centre) <= this->Radius * this->Radius;
 }
 
+bool WorkingSet::IsFarOut() const
+{
+  const double far = 8.0 * this->Touched->Radius();
+  return SquaredLength(this->Position) > far * far;
+}
+
 bool WorkingSet::FindFirstHit(
   const Vector& goal, const ActivePlanes& active, WorkBudget& budget, FacetHit& hit)
 {
@@ -111,6 +117,13 @@ bool WorkingSet::FindFirstHit(
     {
       return true;
     }
+  }
+  if (this->Covered == Region::Ball && this->IsFarOut())
+  {
+    const double fraction = this->Radius / glm::length(to - this->Position);
+    hit.Fraction = fraction * (1.0 - 0x1p-40);
+    hit.IsWaypoint = true;
+    return true;
   }
   if (!this->GatherSegment(to, budget))
   {

@@ -21,6 +21,9 @@ struct FacetHit
 {
   double Fraction = HUGE_VAL; ///< of the motion, 0 to 1; HUGE_VAL: none
   ActivePlane Plane;
+  /// No facet: so far nothing can be, and from there the rest is to be looked at. A way from far
+  /// out is known too badly to say what it meets.
+  bool IsWaypoint = false;
 
   explicit operator bool() const { return this->Fraction <= 1.0; }
 };
@@ -92,6 +95,7 @@ private:
     return this->Flipped[i] ? -n : n;
   }
   bool IsInBall(const Vector& x) const;
+  bool IsFarOut() const;
   bool IsEmptyAround(const Vector& x) const;
 
   std::shared_ptr<const TriangleSurface> Touched;

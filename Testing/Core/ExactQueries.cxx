@@ -98,9 +98,11 @@ bool ExactQueries::Crosses(const Vec3& from, const Vec3& to) const
     {
       const int before = Side(a, b, c, p);
       const int after = Side(a, b, c, q);
-      const bool fromFront = before >= 0 && after <= 0 && (before != 0 || after != 0);
-      const bool fromBack = both && before < 0 && after >= 0;
-      return (fromFront || fromBack) && LineInTriangle(p, q, a, b, c) >= 0;
+      // Where both sides are touched, a point comes onto a triangle only within its plane, around
+      // its rim, and may leave to either side.
+      const bool changesSide = both ? before != 0 && before * after <= 0
+                                    : before >= 0 && after <= 0 && before != after;
+      return changesSide && LineInTriangle(p, q, a, b, c) >= 0;
     });
 }
 

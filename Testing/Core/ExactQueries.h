@@ -15,7 +15,8 @@ public:
   explicit ExactQueries(std::shared_ptr<const TriangleSurface> surface);
 
   /// Whether a straight way from `from` to `to` meets a triangle from a side that can be touched.
-  /// As for the god-object, ending on a triangle counts and starting on it does not.
+  /// As for the god-object, ending on a triangle counts; starting on it counts only for one that is
+  /// touched from its front and left behind.
   bool Crosses(const Vec3& from, const Vec3& to) const;
 
   /// Whether a point lies inside a closed surface: the parity of crossings of a ray.

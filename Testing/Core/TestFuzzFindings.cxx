@@ -1,0 +1,78 @@
+// What fuzzing found, each a test of its own: see Testing/Fuzz.
+#include "AnalyticSurfaces.h"
+#include "ExactQueries.h"
+#include "GodObject.h"
+
+#include <gtest/gtest.h>
+
+using namespace haptics;
+using namespace haptics::testing;
+
+namespace
+{
+std::shared_ptr<const TriangleSurface> OneTriangle(
+  const Vec3& a, const Vec3& b, const Vec3& c, Side side)
+{
+  TriangleMesh mesh;
+  mesh.Points = { a, b, c };
+  mesh.Triangles = { { 0, 1, 2 } };
+  return MakeSurface(mesh, side, EngineKind::Embree);
+}
+
+/// Moves over the HIPs and checks every piece of the way with exact arithmetic.
+void ExpectNoCrossing(
+  const std::shared_ptr<const TriangleSurface>& surface, const std::vector<Vec3>& hips)
+{
+  const ExactQueries exact(surface);
+  GodObject god({ surface });
+  for (std::size_t tick = 0; tick < hips.size(); ++tick)
+  {
+    const Contact& contact = god.Update(hips[tick]);
+    EXPECT_NE(contact.Status, UpdateStatus::Overloaded);
+    int corners = 0;
+    const Vec3* const way = god.Way(corners);
+    for (int i = 0; i + 1 < corners; ++i)
+    {
+      EXPECT_FALSE(exact.Crosses(way[i], way[i + 1])) << "tick " << tick << ", piece " << i;
+    }
+  }
+}
+}
+
+// Where a way from far out passes the surface is lost in rounding.
+TEST(FuzzFindings, AWayFromFarOutMissesNoTriangle)
+{
+  for (const double far : { 1e7, 1e10, 1e18, 1e54 })
+  {
+    ExpectNoCrossing(
+      OneTriangle({ 1.25, 1.25, 1.75 }, { -2, -2, -2 }, { -1.75, -1.75, -0.75 }, Side::Front),
+      { { -far, 0, 0 }, { -2, -2, -2 } });
+    ExpectNoCrossing(OneTriangle({ 0, -0.25, 0 }, { -2, 0, -0.25 }, { -0.25, -2, -2 }, Side::Both),
+      { { -2, -far, 1.75 }, { -0.25, 0, -0.25 } });
+    ExpectNoCrossing(MakeSurface(Icosphere(2, 1.0)), { { 0.3 * far, far, -far }, { 0.1, 0.2, 0.3 } });
+  }
+}
+
+TEST(FuzzFindings, AWayToFarOutMissesNoTriangle)
+{
+  for (const double far : { 1e7, 1e10, 1e18, 1e54 })
+  {
+    ExpectNoCrossing(MakeSurface(InsideOut(Icosphere(2, 1.0)), Side::Front, EngineKind::Embree),
+      { { 0.1, 0.2, 0.3 }, { 0.9, 0.2, 0.3 }, { -far, 0, 0 }, { far, far, 0.5 * far } });
+  }
+}
+
+TEST(FuzzFindings, AHugeCrackWidthCountsAsTheSizeOfTheSurface)
+{
+  for (const EngineKind engine : { EngineKind::BruteForce, EngineKind::Embree })
+  {
+    SurfaceOptions options;
+    options.Engine = engine;
+    options.CrackWidth = 1e44;
+    std::string error;
+    const auto surface = TriangleSurface::Build(Square(1.0), options, error);
+    ASSERT_TRUE(surface) << error;
+    EXPECT_LE(surface->Clearance(), surface->Radius());
+    ExpectNoCrossing(surface, { { 0.2, 0.1, 3.0 }, { 0.2, 0.1, -3.0 }, { 0.2, 0.1, 3.0 } });
+  }
+}
