@@ -1,0 +1,219 @@
+// Any surfaces, any path: every piece of the way is checked with exact arithmetic.
+#include "ExactQueries.h"
+#include "ForceModel.h"
+#include "FuzzInput.h"
+#include "GodObject.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace haptics::fuzz
+{
+namespace
+{
+Vec3 Difference(const Vec3& a, const Vec3& b)
+{
+  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
+}
+
+double Length(const Vec3& v)
+{
+  return std::hypot(v[0], v[1], v[2]);
+}
+
+bool IsFinite(const Vec3& v)
+{
+  return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
+}
+
+TriangleMesh MakeMesh(FuzzInput& input)
+{
+  TriangleMesh mesh;
+  const int numberOfPoints = input.Choice(16);
+  for (int i = 0; i < numberOfPoints; ++i)
+  {
+    mesh.Points.push_back(input.Place());
+  }
+  const int numberOfTriangles = input.Choice(24);
+  // One corner more than there are is a mistake to be refused.
+  const int corners = numberOfPoints + (input.Byte() == 0 ? 1 : 0);
+  for (int i = 0; i < numberOfTriangles && corners > 0; ++i)
+  {
+    mesh.Triangles.push_back({ input.Choice(corners), input.Choice(corners), input.Choice(corners) });
+  }
+  return mesh;
+}
+
+/// Says what an input means, so that a finding can be written down as a test.
+bool IsPrinting()
+{
+  static const bool isPrinting = std::getenv("HAPTICS_FUZZ_PRINT") != nullptr;
+  return isPrinting;
+}
+
+void Print(const char* name, const Vec3& v)
+{
+  std::fprintf(stderr, "%s { %.17g, %.17g, %.17g }\n", name, v[0], v[1], v[2]);
+}
+
+void Print(const TriangleMesh& mesh, const SurfaceOptions& options)
+{
+  std::fprintf(stderr, "surface, side %d, engine %d, crack width %.17g\n",
+    static_cast<int>(options.TouchedSide), static_cast<int>(options.Engine), options.CrackWidth);
+  for (const Vec3& point : mesh.Points)
+  {
+    Print("  point", point);
+  }
+  for (const auto& [a, b, c] : mesh.Triangles)
+  {
+    std::fprintf(stderr, "  triangle { %d, %d, %d }\n", a, b, c);
+  }
+}
+
+std::shared_ptr<const TriangleSurface> MakeSurface(FuzzInput& input)
+{
+  SurfaceOptions options;
+  options.TouchedSide = static_cast<Side>(input.Choice(3));
+  options.Engine = input.Choice(2) ? EngineKind::Embree : EngineKind::BruteForce;
+  if (input.Choice(8) == 7)
+  {
+    options.CrackWidth = input.Coordinate();
+  }
+  TriangleMesh mesh = MakeMesh(input);
+  if (IsPrinting())
+  {
+    Print(mesh, options);
+  }
+  std::string error;
+  const auto surface = TriangleSurface::Build(std::move(mesh), options, error);
+  Require(surface ? error.empty() : !error.empty(), "a surface or an error, never both or none");
+  return surface;
+}
+
+/// A HIP for the next tick: somewhere, near the last one, or near a surface's point.
+Vec3 NextHip(FuzzInput& input, const Vec3& last)
+{
+  switch (input.Choice(4))
+  {
+    case 0:
+      return input.Place();
+    case 1:
+      return { input.AnyNumber(), input.AnyNumber(), input.AnyNumber() };
+    default:
+      return { last[0] + 0.01 * (input.Byte() - 128), last[1] + 0.01 * (input.Byte() - 128),
+        last[2] + 0.01 * (input.Byte() - 128) };
+  }
+}
+
+class Checker
+{
+public:
+  explicit Checker(const std::vector<std::shared_ptr<const TriangleSurface>>& surfaces)
+  {
+    for (const auto& surface : surfaces)
+    {
+      this->Exact.emplace_back(surface);
+      this->Offsets.push_back(Difference(surface->Origin(), surfaces.front()->Origin()));
+      this->Reach = std::max(this->Reach, Length(this->Offsets.back()) + surface->Radius());
+    }
+  }
+
+  void Check(const GodObject& god, const Vec3& hip, const Contact& contact)
+  {
+    Require(IsFinite(contact.Displacement), "the displacement is finite");
+    Require(std::isfinite(contact.Penetration), "the penetration is finite");
+    const Vec3 force = ForceModel().Force(contact.Displacement);
+    Require(IsFinite(force), "the force is finite");
+    Require(Length(force) <= ForceModel().MaximumForce * (1.0 + 1e-12), "the force is limited");
+    Require(contact.NumberOfConstraints >= 0 && contact.NumberOfConstraints <= 3, "0 to 3 constraints");
+    for (int i = 0; i < contact.NumberOfConstraints; ++i)
+    {
+      const Constraint& constraint = contact.Constraints[i];
+      Require(std::abs(Length(constraint.Normal) - 1.0) < 1e-9, "normals have length 1");
+      const auto& surface = god.Surfaces().at(constraint.Surface);
+      Require(static_cast<std::size_t>(constraint.Triangle) < surface->Triangles().size(),
+        "constraints name triangles");
+    }
+    if (contact.Status == UpdateStatus::InvalidHip)
+    {
+      Require(Length(force) == 0.0, "an invalid HIP asks for no force");
+      return;
+    }
+    Require(IsFinite(hip), "a HIP that is not finite is invalid");
+    Require(contact.Status != UpdateStatus::Overloaded, "few triangles are no overload");
+    Require(contact.Status != UpdateStatus::Free || contact.Displacement == Vec3{},
+      "free means at the HIP");
+    this->CheckWay(god, Difference(hip, god.WayOrigin()));
+  }
+
+private:
+  void CheckWay(const GodObject& god, const Vec3& goal)
+  {
+    int corners = 0;
+    const Vec3* const way = god.Way(corners);
+    Require(corners > 0, "a way has a start");
+    if (this->HasBefore)
+    {
+      Require(way[0] == this->Before, "ways join");
+    }
+    for (int i = 0; i + 1 < corners; ++i)
+    {
+      for (std::size_t k = 0; k < this->Exact.size(); ++k)
+      {
+        const Vec3 from = Difference(way[i], this->Offsets[k]);
+        const Vec3 to = Difference(way[i + 1], this->Offsets[k]);
+        Require(!this->Exact[k].Crosses(from, to), "no piece of the way crosses a triangle");
+      }
+    }
+    const Vec3& now = way[corners - 1];
+    const double before = Length(Difference(way[0], goal));
+    Require(Length(Difference(now, goal)) <= before * (1.0 + 1e-9) + 1e-12 * this->Reach,
+      "the god-object never moves away from the HIP");
+    this->Before = now;
+    this->HasBefore = true;
+  }
+
+  std::vector<testing::ExactQueries> Exact;
+  std::vector<Vec3> Offsets;
+  double Reach = 0.0;
+  Vec3 Before{};
+  bool HasBefore = false;
+};
+}
+
+void TestOneInput(FuzzInput& input)
+{
+  std::vector<std::shared_ptr<const TriangleSurface>> surfaces;
+  const int wanted = 1 + (input.Choice(4) == 3 ? input.Choice(3) : 0);
+  for (int i = 0; i < wanted; ++i)
+  {
+    if (const auto surface = MakeSurface(input))
+    {
+      surfaces.push_back(surface);
+    }
+  }
+  if (surfaces.empty())
+  {
+    return;
+  }
+  GodObject god(surfaces);
+  Checker checker(surfaces);
+  Vec3 hip{};
+  for (int tick = 0; tick < 64 && !input.IsEmpty(); ++tick)
+  {
+    hip = NextHip(input, IsFinite(hip) ? hip : Vec3{});
+    const Contact& contact = god.Update(hip);
+    if (IsPrinting())
+    {
+      Print("hip", hip);
+      Print("  god-object", contact.Position);
+    }
+    checker.Check(god, hip, contact);
+  }
+}
+}
