@@ -46,15 +46,17 @@ struct TriangleList
 ///
 /// Both questions are answered *conservatively*: every triangle that meets the region is in the
 /// list, each once, in any order; others may be. Certainty comes from the caller's predicates.
-/// Coordinates are in the surface's local frame, no farther from its origin than twice its radius. Queries are made by one or more servo threads at
-/// once: const, no allocation, no lock, no exception.
+/// Coordinates are in the surface's local frame, no farther from its origin than twice its radius.
+/// Queries are made by one or more servo threads at once: const, no allocation, no lock, no
+/// exception.
 class VTKHAPTICSCORE_EXPORT CollisionEngine
 {
 public:
   virtual ~CollisionEngine() = default;
 
   /// Appends the triangles that meet the ball.
-  virtual void FindInBall(const Vec3& centre, double radius, TriangleList& found) const noexcept = 0;
+  virtual void FindInBall(
+    const Vec3& centre, double radius, TriangleList& found) const noexcept = 0;
   /// Appends the triangles that come within the engine's margin of the segment.
   virtual void FindOnSegment(
     const Vec3& from, const Vec3& to, TriangleList& found) const noexcept = 0;
@@ -67,13 +69,14 @@ public:
 /// What an engine is built over. It keeps references to the two arrays.
 struct EngineInput
 {
-  const std::vector<Vec3>& Points;                         ///< local frame
+  const std::vector<Vec3>& Points; ///< local frame
   const std::vector<std::array<std::int32_t, 3>>& Triangles;
   double Radius; ///< no point is farther from the local origin
   double Margin; ///< FindOnSegment thickens its segment by this
 };
 
-/// Makes an engine, or returns null when it is not there or memory ran out. Automatic picks by size.
+/// Makes an engine, or returns null when it is not there or memory ran out. Automatic picks by
+/// size.
 VTKHAPTICSCORE_EXPORT std::unique_ptr<CollisionEngine> MakeEngine(
   EngineKind kind, const EngineInput& input);
 

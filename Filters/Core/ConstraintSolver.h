@@ -3,7 +3,8 @@
 
 namespace haptics
 {
-/// @brief Equation (4) of Zilles and Salisbury (1995): the point nearest to w on up to three planes.
+/// @brief Equation (4) of Zilles and Salisbury (1995): the point nearest to w on up to three
+/// planes.
 ///
 /// The planes n·y = d have unit normals. The 6x6 system's identity and zero blocks leave a chain of
 /// projections once the normals are orthonormalised (Gram-Schmidt), which keeps its digits on
@@ -27,8 +28,8 @@ inline Real Dot(const Real a[3], const Real b[3])
 /// False, with y undefined, when planes are parallel: `parallel` is the smallest squared sine, of
 /// the second plane with the first and of the third with the line of the two.
 template <class Real>
-inline bool ProjectOnto(
-  const Plane<Real>* const planes[3], int count, const Real& parallel, Real y[3], Real multipliers[3])
+inline bool ProjectOnto(const Plane<Real>* const planes[3], int count, const Real& parallel,
+  Real y[3], Real multipliers[3])
 {
   if (count == 0)
   {

@@ -136,7 +136,10 @@ public:
 #endif
   }
 
-  EngineKind Kind() const noexcept override { return EngineKind::Embree; }
+  EngineKind Kind() const noexcept override
+  {
+    return EngineKind::Embree;
+  }
   std::size_t MemoryBytes() const noexcept override
   {
     return static_cast<std::size_t>(this->Bytes.load());

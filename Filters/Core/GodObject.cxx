@@ -151,8 +151,8 @@ private:
     Vector to = target;
     for (int halving = 0; halving < LargestNumberOfHalvings; ++halving)
     {
-      const bool isClear = std::all_of(this->Sets.begin(), this->Sets.end(),
-        [&to](WorkingSet& set) { return set.IsClear(to); });
+      const bool isClear = std::all_of(
+        this->Sets.begin(), this->Sets.end(), [&to](WorkingSet& set) { return set.IsClear(to); });
       if (isClear)
       {
         for (WorkingSet& set : this->Sets)
@@ -222,8 +222,8 @@ const Contact& GodObject::Update(const Vec3& hip) noexcept
 {
   Implementation& god = *this->Internal;
   Contact& result = god.Result;
-  const bool isValid = std::all_of(
-    hip.begin(), hip.end(), [](double x) { return std::abs(x) < LargestCoordinate; }); // false for NaN
+  const bool isValid = std::all_of(hip.begin(), hip.end(),
+    [](double x) { return std::abs(x) < LargestCoordinate; }); // false for NaN
   if (!isValid)
   {
     result.Status = UpdateStatus::InvalidHip;

@@ -42,8 +42,8 @@ struct Contact
 /// @brief The constraint-based god-object of Zilles and Salisbury (1995), certified against leaks.
 ///
 /// Each update moves the point towards the HIP until a facet is met, adds the facet's plane, solves
-/// the paper's equation (4) with a check of the multipliers' signs, and goes on until no facet is in
-/// the way; up to 16 such passes, so that convex edges are crossed in the same tick (Fig. 5).
+/// the paper's equation (4) with a check of the multipliers' signs, and goes on until no facet is
+/// in the way; up to 16 such passes, so that convex edges are crossed in the same tick (Fig. 5).
 ///
 /// **What is guaranteed.** Every straight piece of the god-object's way has been certified: it
 /// touches no facet of any surface from a side that can be touched, shared edges and corners
@@ -59,8 +59,8 @@ struct Contact
 /// **Monotone**: an update never takes the god-object farther from the HIP it is given, beyond
 /// rounding: the premise of the stability bound K <= 2b/T on any static surface.
 ///
-/// **Bounded**: at most 16 passes of 12 casts, and 32,768 triangles looked up in all; where one place
-/// needs more, the god-object is held there (UpdateStatus::Overloaded).
+/// **Bounded**: at most 16 passes of 12 casts, and 32,768 triangles looked up in all; where one
+/// place needs more, the god-object is held there (UpdateStatus::Overloaded).
 class VTKHAPTICSCORE_EXPORT GodObject
 {
 public:

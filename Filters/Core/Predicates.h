@@ -12,8 +12,8 @@ int Orientation(const Vector& a, const Vector& b, const Vector& c, const Vector&
 
 /// Whether the line through p and q meets the closed triangle a, b, c, given that p and q are not
 /// strictly on one side of its plane and not both on it. Exact.
-bool LineMeetsTriangle(const Vector& p, const Vector& q, const Vector& a, const Vector& b,
-  const Vector& c) noexcept;
+bool LineMeetsTriangle(
+  const Vector& p, const Vector& q, const Vector& a, const Vector& b, const Vector& c) noexcept;
 }
 
 #endif

@@ -14,8 +14,8 @@ struct EdgeUse
 {
   std::int32_t Low, High; ///< its end points, Low < High
   std::int32_t Triangle;
-  std::int8_t Edge;    ///< which edge of the triangle: 0-1, 1-2 or 2-0
-  bool Ascending;      ///< the triangle runs from Low to High
+  std::int8_t Edge; ///< which edge of the triangle: 0-1, 1-2 or 2-0
+  bool Ascending;   ///< the triangle runs from Low to High
 };
 
 std::vector<EdgeUse> SortedEdgeUses(
@@ -96,7 +96,8 @@ std::int64_t CountInsideOut(const std::vector<Piece>& pieces)
     [&pieces](const Piece& piece)
     {
       return !piece.Open && piece.SignedVolume < 0.0 &&
-        std::none_of(pieces.begin(), pieces.end(), [&piece](const Piece& outer)
+        std::none_of(pieces.begin(), pieces.end(),
+          [&piece](const Piece& outer)
           { return !outer.Open && outer.SignedVolume > 0.0 && StrictlyWithin(piece, outer); });
     });
 }

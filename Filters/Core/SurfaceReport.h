@@ -24,8 +24,8 @@ struct SurfaceReport
   std::int64_t FlippedEdges = 0;     ///< edges whose two triangles are oriented against each other
   std::int64_t Components = 0;       ///< pieces connected through edges
   std::int64_t InsideOutComponents = 0; ///< closed pieces whose normals point into their solid
-  bool Closed = false;               ///< no boundary edge and no non-manifold edge
-  bool Oriented = false;             ///< no flipped edge and no non-manifold edge
+  bool Closed = false;                  ///< no boundary edge and no non-manifold edge
+  bool Oriented = false;                ///< no flipped edge and no non-manifold edge
 };
 
 /// Finds the neighbours of each triangle and reports the topology.

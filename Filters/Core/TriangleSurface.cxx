@@ -74,8 +74,8 @@ double LongestEdgeWithArea(const TriangleMesh& mesh)
   double longest = 0.0;
   for (const Triangle& t : mesh.Triangles)
   {
-    const Facet facet(ToVector(mesh.Points[t[0]]), ToVector(mesh.Points[t[1]]),
-      ToVector(mesh.Points[t[2]]));
+    const Facet facet(
+      ToVector(mesh.Points[t[0]]), ToVector(mesh.Points[t[1]]), ToVector(mesh.Points[t[2]]));
     if (facet.HasArea())
     {
       longest = std::max(longest, facet.LongestEdge);
@@ -110,9 +110,8 @@ std::shared_ptr<const TriangleSurface> TriangleSurface::Build(
   if (surface->Touched == Side::Automatic)
   {
     const SurfaceReport& found = surface->Found;
-    surface->Touched = found.Closed && found.Oriented && found.InsideOutComponents == 0
-      ? Side::Front
-      : Side::Both;
+    surface->Touched =
+      found.Closed && found.Oriented && found.InsideOutComponents == 0 ? Side::Front : Side::Both;
   }
   const EngineInput input{ surface->Mesh.Points, surface->Mesh.Triangles, surface->SurfaceRadius,
     LargestGrowth(surface->MinimumClearance, longestEdge) };

@@ -14,8 +14,9 @@ namespace
 /// Most triangles that one gathering holds: more meet in no point of any surface seen, and fewer
 /// would leave the tip of a finely cut cone out of touch.
 constexpr std::int32_t LargestSet = 8192;
-/// A ball with more is tried again at half the radius.
-constexpr std::int32_t LargestBall = 256;
+/// An engine that finds more in a ball is stopped, and a ball of half the radius is tried. Where
+/// even the smallest ball has more, as near the tip of a fan, more are let through.
+constexpr std::int32_t FewInBall = 64;
 /// About as many make gathering rare and scanning quick.
 constexpr double WantedInBall = 16.0;
 /// How far ahead of the god-object a ball is centred, in radii.
@@ -42,13 +43,12 @@ WorkingSet::WorkingSet(
   , Index(index)
   , Offset(offset)
   // Positions are rounded in the scene frame, which may be far from this surface.
-  , MinimumClearance(std::max(
-      this->Touched->Clearance(), 1024.0 * UnitRoundoff * (glm::length(offset) + this->Touched->Radius())))
+  , MinimumClearance(std::max(this->Touched->Clearance(),
+      1024.0 * UnitRoundoff * (glm::length(offset) + this->Touched->Radius())))
   , Reach(LargestGrowth(this->MinimumClearance, this->Touched->Radius()))
   , RadiusToTry(this->Touched->Radius())
 {
-  const std::size_t capacity =
-    std::min<std::size_t>(LargestSet, this->Touched->Triangles().size());
+  const std::size_t capacity = std::min<std::size_t>(LargestSet, this->Touched->Triangles().size());
   this->Found.resize(capacity);
   this->Triangles.resize(capacity);
   this->Flipped.resize(capacity);
@@ -108,8 +108,7 @@ bool WorkingSet::FindFirstHit(
     }
   }
   // Another ball is worth while where the god-object has neared the rim of the old one.
-  const bool isGatheredHere =
-    this->Covered == Region::Ball && this->GatheredAt == this->Position;
+  const bool isGatheredHere = this->Covered == Region::Ball && this->GatheredAt == this->Position;
   if (!isGatheredHere && this->GatherBall(budget))
   {
     hit = this->Scan(to, active);
@@ -154,34 +153,47 @@ bool WorkingSet::GatherBall(WorkBudget& budget)
     return true;
   }
   const auto capacity = static_cast<std::int32_t>(this->Found.size());
-  const double smallest = 0x1p-30 * surfaceRadius;
   const double lead = glm::length(moved);
-  for (double radius = this->RadiusToTry; budget.Triangles > 0; radius *= 0.5)
+  double radius = this->RadiusToTry;
+  const double smallest = 0x1p-20 * surfaceRadius;
+  while (budget.Triangles > 0)
   {
     // Ahead of a steady motion, so that the ball serves longer.
     const bool isSteady = lead > 0.0 && lead < 2.0 * radius;
     this->Centre = this->Position + (isSteady ? Lead * radius / lead : 0.0) * moved;
-    const bool isSmallest = radius <= smallest;
-    TriangleList found{ this->Found.data(), isSmallest ? capacity : std::min(capacity, LargestBall) };
+    TriangleList found{ this->Found.data(), std::min(capacity, this->MostInBall) };
     this->Touched->Engine().FindInBall(ToVec3(this->Centre), radius, found);
     budget.Triangles -= found.Count;
     if (!found.Overflow)
     {
       this->Radius = radius * (1.0 - 0x1p-40);
-      this->Fill(found, radius);
+      this->Fill(found, this->Centre, radius, radius);
       this->Covered = Region::Ball;
       const double change = std::sqrt(WantedInBall / (this->Count + 1.0));
       // A surface of small triangles comes into a growing ball all at once: a radius that was too
       // large is not tried again soon.
       this->LargestToTry *= 1.05;
-      this->RadiusToTry = std::min(
-        { radius * std::clamp(change, 0.5, 2.0), surfaceRadius, this->LargestToTry });
+      this->RadiusToTry =
+        std::min({ radius * std::clamp(change, 0.5, 4.0), surfaceRadius, this->LargestToTry });
+      if (found.Count < this->MostInBall / 4)
+      {
+        this->MostInBall = std::max(FewInBall, this->MostInBall / 2);
+      }
       return true;
     }
-    this->LargestToTry = 0.7 * radius;
-    if (isSmallest)
+    if (radius > smallest)
     {
-      break;
+      this->LargestToTry = 0.7 * radius;
+      radius *= 0.5;
+    }
+    else if (this->MostInBall < capacity)
+    {
+      this->MostInBall *= 4;
+      this->LargestToTry = HUGE_VAL;
+    }
+    else
+    {
+      return false;
     }
   }
   return false;
@@ -205,11 +217,12 @@ bool WorkingSet::GatherSegment(const Vector& to, WorkBudget& budget)
     enter = std::max(0.0, (-b - std::sqrt(root)) / a);
     leave = std::min(1.0, (-b + std::sqrt(root)) / a);
   }
+  const Vector first = this->Position + enter * way;
+  const Vector last = this->Position + leave * way;
   TriangleList found{ this->Found.data(), static_cast<std::int32_t>(this->Found.size()) };
   if ((a == 0.0 || root > 0.0) && enter <= leave)
   {
-    this->Touched->Engine().FindOnSegment(
-      ToVec3(this->Position + enter * way), ToVec3(this->Position + leave * way), found);
+    this->Touched->Engine().FindOnSegment(ToVec3(first), ToVec3(last), found);
     budget.Triangles -= found.Count;
   }
   if (found.Overflow || budget.Triangles <= 0)
@@ -217,7 +230,8 @@ bool WorkingSet::GatherSegment(const Vector& to, WorkBudget& budget)
     return false;
   }
   this->Radius = HUGE_VAL;
-  this->Fill(found, std::sqrt(a));
+  this->Fill(
+    found, 0.5 * (first + last), 0.5 * glm::length(last - first) + this->Reach, std::sqrt(a));
   this->Covered = Region::Segment;
   return true;
 }
@@ -243,7 +257,8 @@ Growth WorkingSet::GrowthOf(std::int32_t triangle, double clearance, double wayE
   return growth;
 }
 
-void WorkingSet::Fill(const TriangleList& found, double reach)
+void WorkingSet::Fill(
+  const TriangleList& found, const Vector& middle, double radius, double farthest)
 {
   this->Count = 0;
   double nearest = HUGE_VAL;
@@ -265,18 +280,19 @@ void WorkingSet::Fill(const TriangleList& found, double reach)
     const auto [a, b, c] = this->CornersOf(id);
     const Vector low = glm::min(a, glm::min(b, c));
     const Vector high = glm::max(a, glm::max(b, c));
-    if (SquaredDistanceToBox(this->Centre, low, high) > this->Radius * this->Radius)
+    if (SquaredDistanceToBox(middle, low, high) > radius * radius)
+    {
+      continue;
+    }
+    const Facet facet(a, b, c);
+    const Vector fromCentre = facet.Corner[facet.Anchor] - this->Centre;
+    const double reach = glm::length(fromCentre) + farthest;
+    const double error = facet.DistanceError(reach);
+    if (!facet.HasArea() || facet.IsApartFrom(middle, radius + error))
     {
       continue;
     }
     nearest = std::min(nearest, SquaredDistanceToBox(this->Position, low, high));
-    const Facet facet(a, b, c);
-    if (!facet.HasArea())
-    {
-      continue;
-    }
-    const Vector fromCentre = facet.Corner[facet.Anchor] - this->Centre;
-    const double farthest = glm::length(fromCentre) + reach;
     const std::int32_t i = this->Count++;
     this->Triangles[i] = id;
     this->Flipped[i] = 0;
@@ -284,8 +300,8 @@ void WorkingSet::Fill(const TriangleList& found, double reach)
     this->NormalY[i] = facet.Normal.y;
     this->NormalZ[i] = facet.Normal.z;
     this->PlaneOffset[i] = glm::dot(facet.Normal, fromCentre);
-    this->Error[i] = facet.DistanceError(farthest);
-    this->Clearance[i] = facet.Clearance(this->MinimumClearance, farthest);
+    this->Error[i] = error;
+    this->Clearance[i] = facet.Clearance(this->MinimumClearance, reach);
   }
   this->EmptyRadius = 0.0;
   this->GrowEmptyBall(std::sqrt(nearest));
@@ -339,8 +355,8 @@ void WorkingSet::TurnToPosition()
     if (isBehind)
     {
       this->Flipped[i] ^= 1;
-      for (auto* values : { &this->NormalX, &this->NormalY, &this->NormalZ, &this->PlaneOffset,
-             &this->Distance })
+      for (auto* values :
+        { &this->NormalX, &this->NormalY, &this->NormalZ, &this->PlaneOffset, &this->Distance })
       {
         (*values)[i] = -(*values)[i];
       }

@@ -2,8 +2,8 @@
 #define WorkingSet_h
 
 #include "ActivePlanes.h"
-#include "TriangleSurface.h"
 #include "Facet.h"
+#include "TriangleSurface.h"
 
 #include <memory>
 #include <vector>
@@ -32,7 +32,8 @@ struct FacetHit
 ///
 /// A ball of triangles is gathered from the surface's engine once and serves every cast and every
 /// certificate of several ticks. A motion that leaves the ball is answered from the triangles along
-/// it. Either way no triangle that the motion can meet is missing, because engines are conservative.
+/// it. Either way no triangle that the motion can meet is missing, because engines are
+/// conservative.
 ///
 /// All positions are in the scene frame. Inside, the surface's local frame is used: a position
 /// always rounds to the same local point, so that pieces of the path join exactly.
@@ -74,7 +75,9 @@ private:
 
   bool GatherBall(WorkBudget& budget);
   bool GatherSegment(const Vector& to, WorkBudget& budget);
-  void Fill(const TriangleList& found, double reach);
+  /// Keeps of the found triangles those that meet the ball about `middle`. `farthest`: no place
+  /// that will be asked for is farther from Centre.
+  void Fill(const TriangleList& found, const Vector& middle, double radius, double farthest);
   void Measure(const Vector& x, std::vector<double>& distances) const;
   void MeasurePosition();
   void MeasureTarget(const Vector& to);
@@ -105,15 +108,16 @@ private:
   double Reach; ///< no facet is felt farther than this from itself
 
   Region Covered = Region::Nothing;
-  Vector Centre{ 0 };       ///< of the ball; start of the segment
-  double Radius = 0.0;      ///< of the ball
-  double RadiusToTry = 0.0; ///< next time
+  Vector Centre{ 0 };             ///< of the ball; start of the segment
+  double Radius = 0.0;            ///< of the ball
+  double RadiusToTry = 0.0;       ///< next time
   double LargestToTry = HUGE_VAL; ///< below a radius that had too many, for some time
-  Vector GatheredAt{ 0 };   ///< where the god-object was when the last ball was gathered
-  Vector EmptyCentre{ 0 };  ///< of a ball in which no facet is felt: nothing to look at
+  std::int32_t MostInBall = 64;   ///< where the engine is stopped
+  Vector GatheredAt{ 0 };         ///< where the god-object was when the last ball was gathered
+  Vector EmptyCentre{ 0 };        ///< of a ball in which no facet is felt: nothing to look at
   double EmptyRadius = 0.0;
-  Vector Position{ 0 };     ///< god-object, local frame
-  Vector Target{ 0 };       ///< of the last cast or certificate, local frame
+  Vector Position{ 0 };            ///< god-object, local frame
+  Vector Target{ 0 };              ///< of the last cast or certificate, local frame
   bool IsPositionMeasured = false; ///< Distance holds for Position
   bool IsTargetMeasured = false;   ///< TargetDistance holds for Target
 

@@ -5,10 +5,10 @@
 #include "AnalyticSurfaces.h"
 #include "GodObject.h"
 
+#include "vtkCellArray.h"
 #include "vtkGodObjectFilter.h"
 #include "vtkNew.h"
 #include "vtkPoints.h"
-#include "vtkCellArray.h"
 #include "vtkPolyData.h"
 #include "vtkXMLPolyDataReader.h"
 
@@ -210,15 +210,24 @@ void MakeTouchable(benchmark::State& state)
 // 1,280, 20,480, 327,680 and 1,310,720 triangles.
 #define HAPTICS_LEVELS Arg(3)->Arg(5)->Arg(7)->Arg(8)
 // One iteration is a stroke of 10,000 ticks; what is compared are medians of the repetitions.
-#define HAPTICS_REPEATED Iterations(1)->Repetitions(9)->ReportAggregatesOnly()->Unit(benchmark::kMillisecond)
+#define HAPTICS_REPEATED                                                                           \
+  Iterations(1)->Repetitions(9)->ReportAggregatesOnly()->Unit(benchmark::kMillisecond)
 
 BENCHMARK(SlideOutside)->HAPTICS_LEVELS->HAPTICS_REPEATED;
 BENCHMARK(SlideInside)->HAPTICS_LEVELS->HAPTICS_REPEATED;
 BENCHMARK(FreeSpace)->HAPTICS_LEVELS->HAPTICS_REPEATED;
 BENCHMARK_CAPTURE(SlideOverFile, frog, "frog")->HAPTICS_REPEATED;
-BENCHMARK_CAPTURE(SlideWith, BruteForce, EngineKind::BruteForce)->DenseRange(0, 5)->HAPTICS_REPEATED;
+BENCHMARK_CAPTURE(SlideWith, BruteForce, EngineKind::BruteForce)
+  ->DenseRange(0, 5)
+  ->HAPTICS_REPEATED;
 BENCHMARK_CAPTURE(SlideWith, Embree, EngineKind::Embree)->DenseRange(0, 5)->HAPTICS_REPEATED;
-BENCHMARK(MakeTouchable)->Arg(7)->Arg(8)->Iterations(1)->Repetitions(5)->ReportAggregatesOnly()->Unit(benchmark::kMillisecond);
+BENCHMARK(MakeTouchable)
+  ->Arg(7)
+  ->Arg(8)
+  ->Iterations(1)
+  ->Repetitions(5)
+  ->ReportAggregatesOnly()
+  ->Unit(benchmark::kMillisecond);
 }
 
 BENCHMARK_MAIN();

@@ -185,8 +185,8 @@ TriangleMesh Groove(double degrees, double size)
   const double x = size * std::sin(half);
   const double z = size * std::cos(half);
   TriangleMesh mesh;
-  mesh.Points = { { 0, -size, 0 }, { 0, size, 0 }, { x, size, z }, { x, -size, z },
-    { -x, size, z }, { -x, -size, z } };
+  mesh.Points = { { 0, -size, 0 }, { 0, size, 0 }, { x, size, z }, { x, -size, z }, { -x, size, z },
+    { -x, -size, z } };
   mesh.Triangles = { { 0, 2, 1 }, { 0, 3, 2 }, { 0, 1, 4 }, { 0, 4, 5 } };
   return mesh;
 }
@@ -211,8 +211,7 @@ TriangleMesh Soup(int count, double size, unsigned seed)
     const int first = static_cast<int>(mesh.Points.size());
     for (int k = 0; k < 3; ++k)
     {
-      mesh.Points.push_back(
-        centre + size * Vec3{ place(random), place(random), place(random) });
+      mesh.Points.push_back(centre + size * Vec3{ place(random), place(random), place(random) });
     }
     mesh.Triangles.push_back({ first, first + 1, first + 2 });
   }

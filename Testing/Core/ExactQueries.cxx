@@ -28,8 +28,7 @@ int Side(const Point& a, const Point& b, const Point& c, const Point& d)
 }
 
 /// Signs of the line p-q against the three edges: 1 inside, 0 on an edge, -1 outside.
-int LineInTriangle(
-  const Point& p, const Point& q, const Point& a, const Point& b, const Point& c)
+int LineInTriangle(const Point& p, const Point& q, const Point& a, const Point& b, const Point& c)
 {
   const std::array<int, 3> signs{ Side(p, q, a, b), Side(p, q, b, c), Side(p, q, c, a) };
   const auto [low, high] = std::minmax_element(signs.begin(), signs.end());
@@ -66,9 +65,8 @@ bool ExactQueries::VisitBoxes(const Bounds& box, const Visitor& visit) const
   for (std::size_t i = 0; i < this->Boxes.size(); ++i)
   {
     const Bounds& b = this->Boxes[i];
-    const bool apart = b.High[0] < box.Low[0] || b.Low[0] > box.High[0] ||
-      b.High[1] < box.Low[1] || b.Low[1] > box.High[1] || b.High[2] < box.Low[2] ||
-      b.Low[2] > box.High[2];
+    const bool apart = b.High[0] < box.Low[0] || b.Low[0] > box.High[0] || b.High[1] < box.Low[1] ||
+      b.Low[1] > box.High[1] || b.High[2] < box.Low[2] || b.Low[2] > box.High[2];
     if (!apart)
     {
       const auto& [a, b1, c] = this->Surface->Triangles()[i];
@@ -100,8 +98,8 @@ bool ExactQueries::Crosses(const Vec3& from, const Vec3& to) const
       const int after = Side(a, b, c, q);
       // Where both sides are touched, a point comes onto a triangle only within its plane, around
       // its rim, and may leave to either side.
-      const bool changesSide = both ? before != 0 && before * after <= 0
-                                    : before >= 0 && after <= 0 && before != after;
+      const bool changesSide =
+        both ? before != 0 && before * after <= 0 : before >= 0 && after <= 0 && before != after;
       return changesSide && LineInTriangle(p, q, a, b, c) >= 0;
     });
 }
@@ -113,7 +111,8 @@ bool ExactQueries::IsInside(const Vec3& point) const
   for (int attempt = 0; attempt < 16; ++attempt)
   {
     const double reach = 4.0 * this->Surface->Radius() + 2.0 * Length(point);
-    const Vec3 end = point + reach * Unit({ 0.577 + 0.013 * attempt, 0.313 - 0.17 * attempt, 0.7547 });
+    const Vec3 end =
+      point + reach * Unit({ 0.577 + 0.013 * attempt, 0.313 - 0.17 * attempt, 0.7547 });
     const Point q = ToPoint(end);
     Bounds box;
     for (int k = 0; k < 3; ++k)

@@ -45,8 +45,8 @@ TriangleMesh SharedEdgeBoxes()
   std::vector<std::int32_t> renamed;
   for (const Vec3& p : other.Points)
   {
-    const auto same = std::find_if(mesh.Points.begin(), mesh.Points.end(),
-      [&p](const Vec3& q) { return Length(p - q) < 1e-9; });
+    const auto same = std::find_if(
+      mesh.Points.begin(), mesh.Points.end(), [&p](const Vec3& q) { return Length(p - q) < 1e-9; });
     renamed.push_back(static_cast<std::int32_t>(same - mesh.Points.begin()));
     if (same == mesh.Points.end())
     {
@@ -72,7 +72,10 @@ const std::vector<Scene>& AllScenes()
     { "star from both sides", [] { return Star(3, 0.04, 0.4, 3); }, Side::Both, 0.04 },
     { "fine noise", [] { return Star(5, 0.03, 0.02, 4); }, Side::Front, 0.03 },
     { "torus", [] { return Torus(0.025, 0.008, 64, 32); }, Side::Front, 0.033 },
-    { "torus, far away", [] { return Moved(Torus(0.025, 0.008, 64, 32), { 5e5, 4e6, 100 }); },
+    { "torus, far away",
+      [] {
+        return Moved(Torus(0.025, 0.008, 64, 32), { 5e5, 4e6, 100 });
+      },
       Side::Front, 0.033 },
     { "groove of 5 degrees", [] { return Groove(5.0, 0.03); }, Side::Front, 0.03 },
     { "groove of 0.2 degrees", [] { return Groove(0.2, 0.03); }, Side::Both, 0.03 },
@@ -170,27 +173,30 @@ void Run(const Scene& scene, HipPath::Kind kind, long ticks, unsigned seed, Engi
       if (exact.Crosses(way[i], way[i + 1]))
       {
         ++tally.Leaks;
-        std::printf("LEAK  %s, %s, tick %ld, seed %u\n", scene.Name, HipPath::NameOf(kind), tick, seed);
+        std::printf(
+          "LEAK  %s, %s, tick %ld, seed %u\n", scene.Name, HipPath::NameOf(kind), tick, seed);
       }
     }
     if (way[0] != before)
     {
       ++tally.Leaks; // the pieces of the way have to join
-      std::printf("GAP   %s, %s, tick %ld, seed %u\n", scene.Name, HipPath::NameOf(kind), tick, seed);
+      std::printf(
+        "GAP   %s, %s, tick %ld, seed %u\n", scene.Name, HipPath::NameOf(kind), tick, seed);
     }
     const Vec3 now = way[corners - 1];
     const Vec3 goal = hip - origin;
     if (Length(now - goal) > Length(before - goal) * (1.0 + 1e-9) + 1e-12 * radius)
     {
       ++tally.Away;
-      std::printf("AWAY  %s, %s, tick %ld, seed %u: %g\n", scene.Name, HipPath::NameOf(kind), tick, seed,
-        Length(now - goal) - Length(before - goal));
+      std::printf("AWAY  %s, %s, tick %ld, seed %u: %g\n", scene.Name, HipPath::NameOf(kind), tick,
+        seed, Length(now - goal) - Length(before - goal));
     }
     ++tally.Ticks;
     tally.Contacts += contact.Status == UpdateStatus::Touching;
     tally.Overloads += contact.Status == UpdateStatus::Overloaded;
-    const bool stalled = contact.Status != UpdateStatus::Free && contact.Penetration > 1e-6 * radius &&
-      Length(now - before) < 1e-9 * radius && UnansweredPull(contact) > 1e-3;
+    const bool stalled = contact.Status != UpdateStatus::Free &&
+      contact.Penetration > 1e-6 * radius && Length(now - before) < 1e-9 * radius &&
+      UnansweredPull(contact) > 1e-3;
     tally.Stalls += stalled;
     tally.DoubleStalls += stalled && stalledBefore;
     if (stalled && std::getenv("SOAK_SHOW_STALLS"))
@@ -205,12 +211,13 @@ void Run(const Scene& scene, HipPath::Kind kind, long ticks, unsigned seed, Engi
 
 void PrintHelp(const char* program)
 {
-  std::printf("Usage: %s [--ticks N] [--seed N] [--scene NAME] [--engine bruteforce|embree]\n\n"
-              "  --ticks N    ticks for each scene and kind of way; default 4000. The long form is\n"
-              "               --ticks 130000: more than 10 million ticks.\n"
-              "  --seed N     of the random ways; default 1. A failure prints the seed to repeat.\n"
-              "  --scene NAME only this scene\n"
-              "  --engine E   default: chosen by size\n",
+  std::printf(
+    "Usage: %s [--ticks N] [--seed N] [--scene NAME] [--engine bruteforce|embree]\n\n"
+    "  --ticks N    ticks for each scene and kind of way; default 4000. The long form is\n"
+    "               --ticks 130000: more than 10 million ticks.\n"
+    "  --seed N     of the random ways; default 1. A failure prints the seed to repeat.\n"
+    "  --scene NAME only this scene\n"
+    "  --engine E   default: chosen by size\n",
     program);
 }
 }
@@ -268,8 +275,8 @@ int main(int argc, char* argv[])
     }
     const auto print = [](const char* name, const Tally& t)
     {
-      std::printf("%-32s %10ld %10ld %6ld %6ld %7ld %7ld %9ld\n", name, t.Ticks, t.Contacts, t.Leaks,
-        t.Away, t.Stalls, t.DoubleStalls, t.Overloads);
+      std::printf("%-32s %10ld %10ld %6ld %6ld %7ld %7ld %9ld\n", name, t.Ticks, t.Contacts,
+        t.Leaks, t.Away, t.Stalls, t.DoubleStalls, t.Overloads);
       std::fflush(stdout);
     };
     print(scene.Name, tally);

@@ -71,8 +71,9 @@ TEST_P(AgainstOracle, StaysWithinATenthOfAMillimetreOnStrokes)
     {
       continue;
     }
-    std::printf("%-20s %-12s contact ticks %5zu   E_p p50 %8.4f p99 %8.4f max %8.4f mm   E_theta p99 "
-                "%6.3f max %6.3f deg\n",
+    std::printf(
+      "%-20s %-12s contact ticks %5zu   E_p p50 %8.4f p99 %8.4f max %8.4f mm   E_theta p99 "
+      "%6.3f max %6.3f deg\n",
       scene.Name, HipPath::NameOf(GetParam()), accuracy.Size(), 1e3 * accuracy.PositionError(0.5),
       1e3 * accuracy.PositionError(0.99), 1e3 * accuracy.PositionError(1.0),
       accuracy.DirectionError(0.99), accuracy.DirectionError(1.0));

@@ -26,7 +26,8 @@ std::vector<std::int32_t> InBall(const TriangleSurface& surface, const Vec3& cen
   return indices;
 }
 
-std::vector<std::int32_t> OnSegment(const TriangleSurface& surface, const Vec3& from, const Vec3& to)
+std::vector<std::int32_t> OnSegment(
+  const TriangleSurface& surface, const Vec3& from, const Vec3& to)
 {
   std::vector<std::int32_t> indices(surface.Triangles().size());
   TriangleList found{ indices.data(), static_cast<std::int32_t>(indices.size()) };
@@ -37,7 +38,8 @@ std::vector<std::int32_t> OnSegment(const TriangleSurface& surface, const Vec3& 
 }
 
 /// Whether the segment crosses one triangle of the surface.
-bool Crosses(const TriangleSurface& surface, std::int32_t triangle, const Vec3& from, const Vec3& to)
+bool Crosses(
+  const TriangleSurface& surface, std::int32_t triangle, const Vec3& from, const Vec3& to)
 {
   TriangleMesh mesh;
   for (const std::int32_t corner : surface.Triangles()[triangle])
@@ -104,8 +106,8 @@ TEST_P(Engines, FindASegmentAlongAnAxis)
   const Vec3 from{ 0.3, 0.3, 1.2 };
   const Vec3 to{ 0.3, 0.3, 0.9 };
   const auto found = OnSegment(*surface, from, to);
-  EXPECT_TRUE(std::any_of(found.begin(), found.end(),
-    [&](std::int32_t i) { return Crosses(*surface, i, from, to); }));
+  EXPECT_TRUE(std::any_of(
+    found.begin(), found.end(), [&](std::int32_t i) { return Crosses(*surface, i, from, to); }));
 }
 
 TEST_P(Engines, StopAtAFullList)

@@ -54,7 +54,8 @@ int MultiplicationsFor(int planes)
 Plane<double> TiltedPlane(double degrees, double towards, double offset)
 {
   const double tilt = degrees * M_PI / 180.0;
-  return { { std::sin(tilt) * std::cos(towards), std::sin(tilt) * std::sin(towards), std::cos(tilt) },
+  return { { std::sin(tilt) * std::cos(towards), std::sin(tilt) * std::sin(towards),
+             std::cos(tilt) },
     offset };
 }
 }

@@ -49,7 +49,8 @@ TEST(FuzzFindings, AWayFromFarOutMissesNoTriangle)
       { { -far, 0, 0 }, { -2, -2, -2 } });
     ExpectNoCrossing(OneTriangle({ 0, -0.25, 0 }, { -2, 0, -0.25 }, { -0.25, -2, -2 }, Side::Both),
       { { -2, -far, 1.75 }, { -0.25, 0, -0.25 } });
-    ExpectNoCrossing(MakeSurface(Icosphere(2, 1.0)), { { 0.3 * far, far, -far }, { 0.1, 0.2, 0.3 } });
+    ExpectNoCrossing(
+      MakeSurface(Icosphere(2, 1.0)), { { 0.3 * far, far, -far }, { 0.1, 0.2, 0.3 } });
   }
 }
 

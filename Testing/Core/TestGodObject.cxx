@@ -223,7 +223,8 @@ TEST(GodObject, FollowsTheFacetsOfASphere)
   for (int tick = 0; tick < 3000; ++tick)
   {
     const double a = 1e-3 * tick;
-    const Vec3 direction{ std::cos(a) * std::cos(0.3 * a), std::sin(a), std::cos(a) * std::sin(0.3 * a) };
+    const Vec3 direction{ std::cos(a) * std::cos(0.3 * a), std::sin(a),
+      std::cos(a) * std::sin(0.3 * a) };
     const Contact& contact = god.Update(0.027 * Unit(direction));
     ASSERT_EQ(contact.Status, UpdateStatus::Touching);
     EXPECT_NEAR(Length(contact.Position), 0.03, 1.0e-4);
@@ -274,8 +275,8 @@ TEST(GodObject, FeelsTheSameFromOutsideWhetherOneSideOrBothAreTouched)
     for (int tick = 0; tick < 4000; ++tick)
     {
       const double a = 2e-3 * tick;
-      const Vec3 hip =
-        0.8 * reach * Vec3{ std::sin(a) * std::cos(0.37 * a), std::sin(1.3 * a + 0.1), std::cos(a) };
+      const Vec3 hip = 0.8 * reach *
+        Vec3{ std::sin(a) * std::cos(0.37 * a), std::sin(1.3 * a + 0.1), std::cos(a) };
       const Vec3 position = front.Update(hip).Position;
       ASSERT_LT(Length(both.Update(hip).Position - position), 1e-9)
         << "scene " << scene << ", tick " << tick;
@@ -322,9 +323,9 @@ TEST(GodObject, GivesTheSameContactAtEveryScaleAndPlace)
     return displacements;
   };
   const auto reference = run(1.0, { 0, 0, 0 });
-  for (const auto& [scale, by] : { std::pair<double, Vec3>{ 1e-6, { 0, 0, 0 } },
-         { 1e6, { 0, 0, 0 } }, { 1e3, { 1e4, -1e4, 3e3 } }, { 1.0, { 1e6, 1e6, -1e6 } },
-         { 1e-3, { 1e3, 0, 0 } } })
+  for (const auto& [scale, by] :
+    { std::pair<double, Vec3>{ 1e-6, { 0, 0, 0 } }, { 1e6, { 0, 0, 0 } },
+      { 1e3, { 1e4, -1e4, 3e3 } }, { 1.0, { 1e6, 1e6, -1e6 } }, { 1e-3, { 1e3, 0, 0 } } })
   {
     const auto displacements = run(scale, by);
     for (std::size_t i = 0; i < reference.size(); ++i)
@@ -354,8 +355,8 @@ TEST(GodObject, RefusesAHipThatIsNoPlace)
   GodObject god({ MakeSurface(Square(0.1)) });
   god.Update({ 0, 0, 0.01 });
   const Vec3 before = god.Update({ 0, 0, -0.01 }).Position;
-  for (const double bad : { std::numeric_limits<double>::quiet_NaN(),
-         std::numeric_limits<double>::infinity(), 1e200 })
+  for (const double bad :
+    { std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e200 })
   {
     const Contact& contact = god.Update({ 0, bad, 0 });
     EXPECT_EQ(contact.Status, UpdateStatus::InvalidHip);

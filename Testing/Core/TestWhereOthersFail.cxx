@@ -93,8 +93,8 @@ TEST(WhereOthersFail, FreeSpaceHasNoForceAtAnySpeed)
   for (int tick = 0; tick < 5000; ++tick)
   {
     const double a = 0.37 * tick;
-    const Contact& contact =
-      god.Update({ 0.06 + 0.05 * std::sin(0.1 * a), 0.09 * std::cos(a) * std::cos(a), 0.2 + 0.1 * std::sin(a) });
+    const Contact& contact = god.Update({ 0.06 + 0.05 * std::sin(0.1 * a),
+      0.09 * std::cos(a) * std::cos(a), 0.2 + 0.1 * std::sin(a) });
     ASSERT_EQ(contact.Displacement, (Vec3{ 0, 0, 0 }));
   }
 }
