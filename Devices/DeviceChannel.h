@@ -30,6 +30,30 @@ public:
 
   /// Asks for a force in the device frame [N], to be held until the next one.
   virtual void Write(const std::array<double, 3>& force) noexcept = 0;
+
+  /// True where the device sets the pace: its servo waits for samples, not for a clock.
+  virtual bool SetsPace() const noexcept { return false; }
+  /// For a device that sets the pace: sleeps until there is a sample that Read() has not given
+  /// yet, at most `timeout` [ns]. False where none came. The servo thread alone.
+  virtual bool WaitForSample(std::uint64_t timeout) noexcept
+  {
+    (void)timeout;
+    return false;
+  }
+  /// For a device that has its own time, as a recording has: the time [s] of the sample that comes
+  /// next, for servos that run in virtual time. False where it has none. The servo thread alone.
+  virtual bool NextTime(double& time) noexcept
+  {
+    (void)time;
+    return false;
+  }
+
+  ///@{
+  /// No force from now on, whatever is written, until Resume(): the servo hangs and cannot write
+  /// itself. Halt() is called from a watchdog's thread at any time, Resume() from the servo thread.
+  virtual void Halt() noexcept {}
+  virtual void Resume() noexcept {}
+  ///@}
 };
 }
 

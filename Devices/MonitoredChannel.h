@@ -44,32 +44,52 @@ public:
 
   void Write(const std::array<double, 3>& force) noexcept final
   {
+    const bool halted = this->Halted.load(std::memory_order_acquire);
+    const std::array<double, 3> asked = halted ? std::array<double, 3>{} : force;
     if (!this->Shut.load(std::memory_order_acquire))
     {
-      this->WriteDevice(force);
+      this->WriteDevice(asked);
     }
-    this->Last.Force = force;
+    this->Last.Force = asked;
     this->Published.Publish(this->Last);
   }
+
+  void Halt() noexcept final
+  {
+    this->Halted.store(true, std::memory_order_release);
+    this->HaltDevice();
+  }
+  void Resume() noexcept final { this->Halted.store(false, std::memory_order_release); }
 
   /// From here on Read() returns false and no force reaches the device. GUI thread.
   void Close() noexcept { this->Shut.store(true, std::memory_order_release); }
   /// True once the device has failed to answer. Any thread.
   bool IsLost() const noexcept { return this->Lost.load(std::memory_order_acquire); }
-  /// What went through last; zeros before the first tick. GUI thread.
-  const DeviceSnapshot& Latest() noexcept
+  /// True between Halt() and Resume(). Any thread.
+  bool IsHalted() const noexcept { return this->Halted.load(std::memory_order_acquire); }
+  /// What went through last, without force while halted; zeros before the first tick. GUI thread.
+  DeviceSnapshot Latest() noexcept
   {
     this->Published.Update();
-    return this->Published.Get();
+    DeviceSnapshot latest = this->Published.Get();
+    if (this->IsHalted())
+    {
+      latest.Force = {};
+    }
+    return latest;
   }
 
 protected:
   virtual bool ReadDevice(double time, DeviceSample& sample) noexcept = 0;
   virtual void WriteDevice(const std::array<double, 3>& force) noexcept = 0;
+  /// For devices that hold a force by themselves: let go of it now, without the servo thread.
+  /// Called from a watchdog's thread, at the same time as any other method.
+  virtual void HaltDevice() noexcept {}
 
 private:
   std::atomic<bool> Shut{ false };
   std::atomic<bool> Lost{ false };
+  std::atomic<bool> Halted{ false };
   DeviceSnapshot Last; // the servo thread's
   LatestValue<DeviceSnapshot> Published;
 };

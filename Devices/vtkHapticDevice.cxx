@@ -36,6 +36,10 @@ const char* vtkHapticDevice::GetStateAsString() const
       return "Ready";
     case Faulted:
       return "Faulted";
+    case LoadingFirmware:
+      return "LoadingFirmware";
+    case Homing:
+      return "Homing";
     default:
       return "Unknown";
   }
@@ -95,6 +99,10 @@ void vtkHapticDevice::BecomeClosed()
 
 void vtkHapticDevice::SetState(int state)
 {
+  if (state != Closed && state != Faulted)
+  {
+    this->ErrorMessage.clear();
+  }
   if (this->State != state)
   {
     this->State = state;
@@ -112,6 +120,7 @@ void vtkHapticDevice::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MaximumForce: " << this->MaximumForce << " N\n";
   os << indent << "MaximumStiffness: " << this->MaximumStiffness << " N/m\n";
   os << indent << "Damping: " << this->Damping << " N s/m\n";
+  os << indent << "Latency: " << this->Latency << " s\n";
   os << indent << "WorkspaceBounds: (" << bounds[0] << ", " << bounds[1] << ", " << bounds[2]
      << ", " << bounds[3] << ", " << bounds[4] << ", " << bounds[5] << ") m\n";
   os << indent << "NumberOfButtons: " << this->NumberOfButtons << "\n";

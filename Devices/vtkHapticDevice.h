@@ -42,7 +42,9 @@ public:
     Closed,  ///< not in use; what every device starts as
     Opening, ///< being found, powered or calibrated
     Ready,   ///< answers and takes forces
-    Faulted  ///< could not be opened or was lost: see GetErrorMessage(); Close() or Open() again
+    Faulted, ///< could not be opened or was lost: see GetErrorMessage(); Close() or Open() again
+    LoadingFirmware, ///< is being given the program that runs on it
+    Homing           ///< waits for a hand to move it so that it finds its origin
   };
 
   /// Invoked after GetState() has changed. No call data.
@@ -53,7 +55,9 @@ public:
 
   /**
    * Open the device and make it ready. Returns true when it is ready or already was; else the
-   * cause is in GetErrorMessage() and, through vtkErrorMacro, in VTK's error output.
+   * cause is in GetErrorMessage() and, through vtkErrorMacro, in VTK's error output. A device that
+   * takes time to open returns false in the state Opening, with no error, and becomes Ready or
+   * Faulted in a later Update().
    */
   virtual bool Open() = 0;
 
@@ -75,16 +79,21 @@ public:
   ///@}
   /// Why the device is Faulted or did not open, for people; empty where nothing is wrong.
   const char* GetErrorMessage() const { return this->ErrorMessage.c_str(); }
+  /// What goes on, for people: the error if there is one, or what opening is waiting for.
+  virtual const char* GetStatusMessage() const { return this->ErrorMessage.c_str(); }
 
   ///@{
   /**
    * What the device can do. MaximumForce [N] and MaximumStiffness [N/m] are what it can hold
    * without shaking; Damping [N s/m] is the viscous friction of its mechanics, 0 where it is not
-   * known. WorkspaceBounds [m] is (xmin, xmax, ymin, ymax, zmin, zmax), what the hand can reach.
+   * known. Latency [s] is the time from a force that the servo asks for to the one that the hand
+   * feels, beyond the servo's own period. WorkspaceBounds [m] is (xmin, xmax, ymin, ymax, zmin,
+   * zmax), what the hand can reach.
    */
   vtkGetMacro(MaximumForce, double);
   vtkGetMacro(MaximumStiffness, double);
   vtkGetMacro(Damping, double);
+  vtkGetMacro(Latency, double);
   vtkGetVector6Macro(WorkspaceBounds, double);
   vtkGetMacro(NumberOfButtons, int);
   ///@}
@@ -116,12 +125,13 @@ protected:
   void Fail(int state, const std::string& message);
   /// For Close(): shuts the channel, becomes Closed.
   void BecomeClosed();
-  /// Changes the state and tells it.
+  /// Changes the state and tells it; any but Closed and Faulted forgets the error.
   void SetState(int state);
 
   double MaximumForce = 0.0;
   double MaximumStiffness = 0.0;
   double Damping = 0.0;
+  double Latency = 0.0;
   double WorkspaceBounds[6] = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
   int NumberOfButtons = 0;
 
