@@ -17,15 +17,16 @@ namespace
 constexpr int Priority = 80;
 }
 
-int RequestRealTimePriority() noexcept
+int RequestRealTimePriority(Urgency urgency) noexcept
 {
 #ifdef __linux__
   // Without real-time priority the kernel may wake a thread 50 us late to save power; not this one.
   prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
   sched_param parameters{};
-  parameters.sched_priority = Priority;
+  parameters.sched_priority = Priority + (urgency == Urgency::AboveServo ? 1 : 0);
   return pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);
 #else
+  (void)urgency;
   return ENOTSUP;
 #endif
 }

@@ -5,8 +5,15 @@
 
 namespace haptics
 {
+/// How urgent a thread is among ours.
+enum class Urgency
+{
+  Servo,
+  AboveServo ///< for who watches the servo
+};
+
 /// Asks for real-time priority for the calling thread. 0 where it was given, else the errno.
-int RequestRealTimePriority() noexcept;
+int RequestRealTimePriority(Urgency urgency) noexcept;
 
 /// What came of it, for people: what it means and what to do. `result` as returned above.
 std::string DescribePriority(int result);

@@ -42,7 +42,9 @@ void ServoCycle::Begin(std::shared_ptr<DeviceChannel> channel, ServoState state)
   }
   this->Lost.store(0, std::memory_order_relaxed);
   this->Channel = std::move(channel);
+  this->Channel->Resume(); // a watchdog may have halted it in the run before
   this->Now = TickRecord();
+  this->IsFirst = true;
   this->MustPlace = true;
   this->State.store(state, std::memory_order_release);
 }
@@ -65,25 +67,32 @@ bool ServoCycle::Tick(double time) noexcept
   const ServoSettings& settings = this->NextSettings.Get();
   NumberedGodObject& god = this->Exchange.Take();
   const Vec3 hip = settings.DeviceToWorld.PointToWorld(sample.Position);
-  if (this->MustPlace || this->Placements != settings.Placements)
+  double period = time - this->Now.Time;
+  if (this->IsFirst)
+  {
+    this->Guard.Restart(settings.Safety);
+    period = settings.Safety.NominalPeriod;
+  }
+  if (this->NoticeJumps(god, settings))
   {
     god.Object->Place(hip);
-    this->MustPlace = false;
-    this->Placements = settings.Placements;
   }
 
   const Contact& contact = god.Object->Update(hip);
-  Vec3 force{};
+  GuardedContact guarded;
+  guarded.Position = sample.Position;
+  guarded.Period = period;
   if (contact.Status != UpdateStatus::InvalidHip)
   {
-    const Vec3 displacement = settings.DeviceToWorld.VectorToDevice(contact.Displacement);
-    if (!IsFinite(displacement))
+    guarded.Displacement = settings.DeviceToWorld.VectorToDevice(contact.Displacement);
+    guarded.Touching = contact.NumberOfConstraints > 0;
+    if (!IsFinite(guarded.Displacement))
     {
       this->End(ServoState::InvalidForce);
       return false;
     }
-    force = settings.Force.Force(displacement);
   }
+  const Vec3 force = this->Guard.Force(guarded, settings.Force, settings.Safety);
   this->Channel->Write(force);
 
   this->Now.Time = time;
@@ -91,6 +100,28 @@ bool ServoCycle::Tick(double time) noexcept
   this->Now.Buttons = sample.Buttons;
   this->Record(god, force);
   return true;
+}
+
+bool ServoCycle::NoticeJumps(const NumberedGodObject& god, const ServoSettings& settings) noexcept
+{
+  const bool mustPlace = this->MustPlace || this->Placements != settings.Placements;
+  // What was published before the first tick is what the run begins with: no change.
+  const bool changed = !this->IsFirst && god.Generation != this->Now.Generation;
+  if (mustPlace || changed)
+  {
+    this->Guard.StartSoftly(settings.Safety);
+  }
+  this->MustPlace = false;
+  this->Placements = settings.Placements;
+  this->IsFirst = false;
+  return mustPlace;
+}
+
+void ServoCycle::Resume() noexcept
+{
+  this->Channel->Resume();
+  this->Guard.Release();
+  this->Guard.StartSoftly(this->NextSettings.Get().Safety);
 }
 
 void ServoCycle::Record(NumberedGodObject& god, const Vec3& force) noexcept
@@ -105,6 +136,9 @@ void ServoCycle::Record(NumberedGodObject& god, const Vec3& force) noexcept
   this->Now.NumberOfConstraints = contact.NumberOfConstraints;
   this->Now.Constraints = contact.Constraints;
   this->Now.Generation = god.Generation;
+  this->Now.Stiffness = this->Guard.GetStiffness();
+  this->Now.Energy = this->Guard.GetEnergy();
+  this->Now.Limits = this->Guard.GetLimits();
 
   this->Latest.Publish(this->Now);
   if (!this->Records.Push(this->Now))

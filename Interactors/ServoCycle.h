@@ -1,6 +1,7 @@
 #ifndef ServoCycle_h
 #define ServoCycle_h
 
+#include "ForceGuard.h"
 #include "ForceModel.h"
 #include "GodObjectExchange.h"
 #include "LatestValue.h"
@@ -27,20 +28,23 @@ enum class ServoState
   DeviceLost,      ///< the device did not answer
   InvalidPosition, ///< the device told a position that is not finite
   InvalidForce,    ///< the god-object's displacement is not finite in the device frame
-  Stalled          ///< two ticks were too far apart
+  Stalled,         ///< two ticks were too far apart
+  Overrun,         ///< too many deadlines were missed
+  Interrupted      ///< the process was asked to end, or ended
 };
 
 /// What the GUI thread may change between two ticks.
 struct ServoSettings
 {
   WorkspaceTransform DeviceToWorld;
-  ForceModel Force;             ///< the device's limits already applied
+  ForceModel Force; ///< the device's limits already applied
+  SafetySettings Safety;
   std::uint64_t Placements = 0; ///< whenever it changes the god-object starts anew at the HIP
 };
 
 /// @brief One servo tick: position in, god-object, force out. Knows nothing of time or threads.
 ///
-///     Read -> device to world -> GodObject::Update -> world to device -> ForceModel -> Write
+///     Read -> device to world -> GodObject::Update -> world to device -> ForceGuard -> Write
 ///
 /// The first group of methods is the GUI thread's, the second the servo thread's; both may run at
 /// once, and none of the second allocates, locks or logs. Any fault asks for zero force in the same
@@ -70,6 +74,8 @@ public:
   }
   /// Any thread.
   ServoState GetState() const { return this->State.load(std::memory_order_acquire); }
+  /// The device of this run. GUI thread, between Begin() and the next one; servo thread.
+  DeviceChannel& GetChannel() const { return *this->Channel; }
   ///@}
 
   /// Readies the next run with a device and forgets the records of the last. GUI thread, while no
@@ -81,12 +87,15 @@ public:
   /// Runs a tick at `time` [s] since the start. False: a fault; no force is asked for, GetState()
   /// tells it, and the run is over.
   bool Tick(double time) noexcept;
+  /// Goes on after a watchdog has halted the device: the force grows softly from zero.
+  void Resume() noexcept;
   /// Ends the run: asks for zero force and becomes `state`.
   void End(ServoState state) noexcept;
   ///@}
 
 private:
   void Record(NumberedGodObject& god, const Vec3& force) noexcept;
+  bool NoticeJumps(const NumberedGodObject& god, const ServoSettings& settings) noexcept;
 
   GodObjectExchange Exchange;
   LatestValue<ServoSettings> NextSettings;
@@ -98,6 +107,8 @@ private:
   // The servo thread's own.
   std::shared_ptr<DeviceChannel> Channel;
   TickRecord Now;
+  ForceGuard Guard;
+  bool IsFirst = true;
   bool MustPlace = true;
   std::uint64_t Placements = 0;
 };

@@ -1,7 +1,11 @@
 #include "ServoLoop.h"
 
+#include "DeviceChannel.h"
+#include "EmergencyStop.h"
 #include "MonotonicClock.h"
+#include "OverrunBudget.h"
 #include "RealTimePriority.h"
+#include "Watchdog.h"
 
 #include <algorithm>
 #include <future>
@@ -24,19 +28,23 @@ ServoLoop::~ServoLoop()
 bool ServoLoop::Start(const ServoTiming& timing, std::string& error)
 {
   this->StopRequested.store(false, std::memory_order_relaxed);
+  EmergencyStop::Install();
   std::promise<int> promise;
   std::future<int> priority = promise.get_future();
   try
   {
+    this->Guardian = std::make_unique<Watchdog>(this->Cycle.GetChannel(), timing.WatchdogTime);
     this->Thread = std::thread(
       [this, timing, promise = std::move(promise)]() mutable
       {
-        promise.set_value(timing.RealTimePriority ? RequestRealTimePriority() : 0);
+        EmergencyStop::LeaveSignalsToOtherThreads();
+        promise.set_value(timing.RealTimePriority ? RequestRealTimePriority(Urgency::Servo) : 0);
         this->Run(timing);
       });
   }
   catch (const std::system_error& failure)
   {
+    this->Guardian.reset();
     error = "The system gave no thread for the servo: " + std::string(failure.what());
     return false;
   }
@@ -50,17 +58,26 @@ void ServoLoop::Stop()
   {
     this->StopRequested.store(true, std::memory_order_relaxed);
     this->Thread.join();
+    this->Guardian.reset();
   }
+}
+
+std::uint64_t ServoLoop::GetNumberOfHalts() const
+{
+  return this->Halts.load(std::memory_order_relaxed);
 }
 
 void ServoLoop::Run(const ServoTiming& timing) noexcept
 {
+  const EmergencyStop emergency(this->Cycle);
+  OverrunBudget budget(timing.MissedShare, timing.Period);
+  this->Halts.store(0, std::memory_order_relaxed);
   const std::uint64_t start = MonotonicNow();
   std::uint64_t next = 0; // number of the deadline to wait for
   std::uint64_t last = start;
   while (true)
   {
-    SleepUntil(start + next * timing.Period);
+    this->Wait(timing, start + next * timing.Period);
     const std::uint64_t now = MonotonicNow();
     const std::uint64_t period = now - last;
     last = now;
@@ -69,21 +86,51 @@ void ServoLoop::Run(const ServoTiming& timing) noexcept
       this->Cycle.End(ServoState::Stopped);
       return;
     }
+    if (emergency.IsRequested())
+    {
+      this->Cycle.End(ServoState::Interrupted);
+      return;
+    }
     if (period > timing.StallLimit)
     {
       this->Cycle.End(ServoState::Stalled);
       return;
     }
+    if (this->Guardian->TakeBite())
+    {
+      this->Halts.store(this->Halts.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+      this->Cycle.Resume();
+    }
     if (!this->Cycle.Tick(static_cast<double>(now - start) * 1e-9))
     {
       return;
     }
+    this->Guardian->Feed();
 
     const std::uint64_t end = MonotonicNow();
     this->Statistics.AddTick(period, end - now);
     const std::uint64_t upcoming = std::max(next + 1, (end - start) / timing.Period + 1);
     this->Statistics.AddMissed(upcoming - (next + 1));
+    if (!budget.Add(upcoming - next, upcoming - (next + 1)))
+    {
+      this->Cycle.End(ServoState::Overrun);
+      return;
+    }
     next = upcoming;
+  }
+}
+
+void ServoLoop::Wait(const ServoTiming& timing, std::uint64_t deadline) noexcept
+{
+  DeviceChannel& channel = this->Cycle.GetChannel();
+  if (timing.DevicePaced && channel.SetsPace())
+  {
+    // A device that stays silent is read all the same: that tells whether it is lost.
+    channel.WaitForSample(DevicePatience * timing.Period);
+  }
+  else
+  {
+    SleepUntil(deadline);
   }
 }
 }

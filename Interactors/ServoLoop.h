@@ -7,17 +7,24 @@
 
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <thread>
 
 namespace haptics
 {
+class Watchdog;
+
 /// How a servo thread keeps time.
 struct ServoTiming
 {
-  std::uint64_t Period = 1000000;       ///< [ns], > 0
+  std::uint64_t Period = 1000000; ///< [ns], > 0
+  std::uint64_t WatchdogTime =
+    25000000; ///< [ns], > Period: a longer tick has no force, see Watchdog
   std::uint64_t StallLimit = 500000000; ///< [ns], > Period: a longer gap between ticks is a fault
+  double MissedShare = 0.5;             ///< of deadlines that may be missed, see OverrunBudget
   bool RealTimePriority = true;         ///< ask the system for it
+  bool DevicePaced = true; ///< wait for the samples of a device that sets the pace, not for a clock
 };
 
 /// @brief Runs a ServoCycle on its own thread, at absolute deadlines.
@@ -26,7 +33,18 @@ struct ServoTiming
 ///     ticks      x    x     x==========x  x    x
 ///                             ^^^^ passed: counted as missed, never made up for in a burst
 ///
-/// The deadlines are a grid from the start on, so that delays do not add up. GUI thread.
+/// The deadlines are a grid from the start on, so that delays do not add up. What a late tick
+/// costs:
+///
+/// | late by            | what happens                                                         |
+/// |--------------------|----------------------------------------------------------------------|
+/// | a few periods      | deadlines are counted as missed; the stiffness limit falls           |
+/// | WatchdogTime       | the device is halted: no force at once; then it grows softly         |
+/// | MissedShare, ~1 s  | the run ends: ServoState::Overrun                                    |
+/// | StallLimit         | the run ends: ServoState::Stalled                                    |
+///
+/// A device that sets the pace (DeviceChannel::SetsPace) is waited for instead of the clock; the
+/// deadlines then are what its ticks are counted against. GUI thread.
 class VTKHAPTICSINTERACTORS_EXPORT ServoLoop
 {
 public:
@@ -46,13 +64,21 @@ public:
   /// 0 where the thread of the last start got real-time priority, else the errno that tells why
   /// not; meaningful where it was asked for.
   int GetPriorityResult() const { return this->PriorityResult; }
+  /// How often the watchdog has halted the device in this run. Any thread.
+  std::uint64_t GetNumberOfHalts() const;
 
 private:
+  // Periods that a device which sets the pace may stay silent before it is asked all the same.
+  static constexpr std::uint64_t DevicePatience = 4;
+
   void Run(const ServoTiming& timing) noexcept;
+  void Wait(const ServoTiming& timing, std::uint64_t deadline) noexcept;
 
   ServoCycle& Cycle;
   ServoStatistics& Statistics;
+  std::unique_ptr<Watchdog> Guardian;
   std::thread Thread;
+  std::atomic<std::uint64_t> Halts{ 0 };
   std::atomic<bool> StopRequested{ false };
   int PriorityResult = 0;
 };

@@ -29,6 +29,10 @@ struct TickRecord
   std::array<Constraint, 3> Constraints; ///< the first NumberOfConstraints are valid
   /// Which published god-object the constraints' surface indices belong to; 0: none yet.
   std::uint64_t Generation = 0;
+
+  double Stiffness = 0.0;   ///< in effect, device frame [N/m]
+  double Energy = 0.0;      ///< the passivity observer's balance [J]; 0 while it is off
+  std::uint32_t Limits = 0; ///< what safety did to the force: bits of SafetyLimit
 };
 }
 

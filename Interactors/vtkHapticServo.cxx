@@ -1,11 +1,16 @@
 #include "vtkHapticServo.h"
 
+#include "DeviceChannel.h"
 #include "MonotonicClock.h"
 #include "RealTimePriority.h"
 #include "ServoCycle.h"
 #include "ServoLoop.h"
 #include "ServoStatistics.h"
 
+#include "StiffnessLimit.h"
+#include "vtkHapticSafety.h"
+
+#include "vtkCommand.h"
 #include "vtkHapticDevice.h"
 #include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
@@ -21,13 +26,9 @@ constexpr double NanosecondsInSecond = 1e9;
 
 static_assert(static_cast<int>(haptics::ServoState::Stalled) == vtkHapticServo::Stalled &&
     static_cast<int>(haptics::ServoState::DeviceLost) == vtkHapticServo::DeviceLost &&
-    static_cast<int>(haptics::ServoState::Stepping) == vtkHapticServo::Stepping,
+    static_cast<int>(haptics::ServoState::Stepping) == vtkHapticServo::Stepping &&
+    static_cast<int>(haptics::ServoState::Interrupted) == vtkHapticServo::Interrupted,
   "both list the same states");
-
-void Copy(const haptics::Vec3& from, double to[3])
-{
-  std::copy(from.begin(), from.end(), to);
-}
 
 /// What a fault means and what to do.
 const char* Explain(int state)
@@ -46,6 +47,13 @@ const char* Explain(int state)
     case vtkHapticServo::Stalled:
       return "Two ticks were further apart than StallLimit, so the servo stopped with zero force. "
              "Relieve the machine or give the servo real-time priority, and start again.";
+    case vtkHapticServo::Overrun:
+      return "More deadlines were missed than the safety's MissedTickShare allows, so the servo "
+             "stopped with zero force. Relieve the machine, lower Rate or give the servo real-time "
+             "priority, and start again.";
+    case vtkHapticServo::Interrupted:
+      return "The process was asked to end, so the servo stopped with zero force. Start again if "
+             "the process goes on.";
     default:
       return "";
   }
@@ -66,6 +74,7 @@ vtkStandardNewMacro(vtkHapticServo);
 vtkHapticServo::vtkHapticServo()
   : Internal(new Internals)
 {
+  this->Safety->AddObserver(vtkCommand::ModifiedEvent, this, &vtkHapticServo::Configure);
   this->Configure();
 }
 
@@ -124,8 +133,11 @@ void vtkHapticServo::SetMaximumForce(double force)
 
 double vtkHapticServo::GetEffectiveStiffness()
 {
-  return this->Device ? std::min(this->Stiffness, this->Device->GetMaximumStiffness())
-                      : this->Stiffness;
+  const haptics::SafetySettings& safety = this->Internal->Settings.Safety;
+  haptics::StiffnessLimit regular;
+  regular.Restart(safety.NominalPeriod);
+  const double most = this->Device ? this->Device->GetMaximumStiffness() : this->Stiffness;
+  return std::min({ this->Stiffness, most, regular.Allowed(safety) });
 }
 
 double vtkHapticServo::GetEffectiveMaximumForce()
@@ -169,9 +181,35 @@ void vtkHapticServo::PlaceGodObject()
   this->Configure();
 }
 
+vtkHapticSafety* vtkHapticServo::GetSafety()
+{
+  return this->Safety;
+}
+
+void vtkHapticServo::SetPaused(bool paused)
+{
+  if (this->Paused != paused)
+  {
+    this->Paused = paused;
+    this->Configure();
+    this->Modified();
+  }
+}
+
 void vtkHapticServo::Configure()
 {
-  this->Internal->Settings.Force.Stiffness = this->GetEffectiveStiffness();
+  haptics::SafetySettings& safety = this->Internal->Settings.Safety;
+  safety.SlewLimit = this->Safety->GetSlewLimit();
+  safety.SoftStartTime = this->Safety->GetSoftStartTime();
+  safety.StiffnessMargin = this->Safety->GetStiffnessMargin();
+  safety.ContactDamping = this->Safety->GetContactDamping();
+  safety.PassivityControl = this->Safety->GetPassivityControl();
+  safety.Paused = this->Paused;
+  safety.DeviceDamping = this->Device ? this->Device->GetDamping() : 0.0;
+  safety.DeviceLatency = this->Device ? this->Device->GetLatency() : 0.0;
+  // The servo itself limits the stiffness by what its periods turn out to be.
+  this->Internal->Settings.Force.Stiffness =
+    this->Device ? std::min(this->Stiffness, this->Device->GetMaximumStiffness()) : this->Stiffness;
   this->Internal->Settings.Force.MaximumForce = this->GetEffectiveMaximumForce();
   this->Internal->Cycle.Configure(this->Internal->Settings);
 }
@@ -185,6 +223,7 @@ bool vtkHapticServo::Begin(int state)
     return false;
   }
   this->Stop();
+  this->Internal->Settings.Safety.NominalPeriod = 1.0 / this->Rate;
   this->Configure(); // the device's limits may be others since it was opened
   this->Internal->Statistics.Clear();
   this->Internal->Cycle.Begin(this->Device->GetChannel(), static_cast<haptics::ServoState>(state));
@@ -206,7 +245,11 @@ bool vtkHapticServo::Start()
   timing.Period = static_cast<std::uint64_t>(std::llround(NanosecondsInSecond / this->Rate));
   timing.StallLimit =
     static_cast<std::uint64_t>(std::llround(NanosecondsInSecond * this->StallLimit));
+  timing.WatchdogTime =
+    static_cast<std::uint64_t>(std::llround(NanosecondsInSecond * this->Safety->GetWatchdogTime()));
+  timing.MissedShare = this->Safety->GetMissedTickShare();
   timing.RealTimePriority = this->RealTimePriority;
+  timing.DevicePaced = this->DevicePaced;
   std::string error;
   if (!this->Internal->Loop.Start(timing, error))
   {
@@ -253,17 +296,26 @@ int vtkHapticServo::Step(int n)
     this->StepPeriod = 1.0 / this->Rate;
   }
 
-  const auto period =
-    static_cast<std::uint64_t>(std::llround(NanosecondsInSecond * this->StepPeriod));
+  haptics::DeviceChannel& channel = this->Internal->Cycle.GetChannel();
   int done = 0;
   for (; done < n; ++done)
   {
+    double time = 0.0;
+    const bool deviceTime = channel.NextTime(time);
+    if (!deviceTime)
+    {
+      time = static_cast<double>(this->NextStep) * this->StepPeriod;
+    }
+    const double period = deviceTime ? time - this->LastStepTime : this->StepPeriod;
     const std::uint64_t before = haptics::MonotonicNow();
-    if (!this->Internal->Cycle.Tick(static_cast<double>(this->NextStep) * this->StepPeriod))
+    if (!this->Internal->Cycle.Tick(time))
     {
       break;
     }
-    this->Internal->Statistics.AddTick(period, haptics::MonotonicNow() - before);
+    this->Internal->Statistics.AddTick(
+      static_cast<std::uint64_t>(std::llround(NanosecondsInSecond * std::max(0.0, period))),
+      haptics::MonotonicNow() - before);
+    this->LastStepTime = time;
     ++this->NextStep;
   }
   this->Update();
@@ -310,127 +362,9 @@ void vtkHapticServo::Fail(const std::string& message)
   vtkErrorMacro(<< message);
 }
 
-const char* vtkHapticServo::GetStateAsString()
+vtkTypeInt64 vtkHapticServo::GetNumberOfHalts()
 {
-  static const char* const names[] = { "Stopped", "Running", "Stepping", "DeviceLost",
-    "InvalidPosition", "InvalidForce", "Stalled" };
-  return names[this->State];
-}
-
-void vtkHapticServo::GetHapticInterfacePoint(double position[3])
-{
-  Copy(this->GetLatestRecord().Hip, position);
-}
-
-void vtkHapticServo::GetGodObject(double position[3])
-{
-  Copy(this->GetLatestRecord().GodObject, position);
-}
-
-void vtkHapticServo::GetForce(double force[3])
-{
-  Copy(this->GetLatestRecord().Force, force);
-}
-
-void vtkHapticServo::GetWorldForce(double force[3])
-{
-  Copy(this->GetLatestRecord().WorldForce, force);
-}
-
-void vtkHapticServo::GetDevicePosition(double position[3])
-{
-  Copy(this->GetLatestRecord().DevicePosition, position);
-}
-
-unsigned int vtkHapticServo::GetButtons()
-{
-  return this->GetLatestRecord().Buttons;
-}
-
-double vtkHapticServo::GetPenetration()
-{
-  return this->GetLatestRecord().Penetration;
-}
-
-int vtkHapticServo::GetNumberOfConstraints()
-{
-  return this->GetLatestRecord().NumberOfConstraints;
-}
-
-double vtkHapticServo::GetTime()
-{
-  return this->GetLatestRecord().Time;
-}
-
-vtkTypeInt64 vtkHapticServo::GetNumberOfTicks()
-{
-  return static_cast<vtkTypeInt64>(this->GetReport().Ticks);
-}
-
-vtkTypeInt64 vtkHapticServo::GetNumberOfMissedTicks()
-{
-  return static_cast<vtkTypeInt64>(this->GetReport().MissedTicks);
-}
-
-double vtkHapticServo::GetMeasuredRate()
-{
-  return this->GetReport().Rate();
-}
-
-double vtkHapticServo::GetMeanPeriod()
-{
-  return this->GetReport().MeanPeriod;
-}
-
-double vtkHapticServo::GetPeriodRatio()
-{
-  return this->GetReport().PeriodRatio;
-}
-
-double vtkHapticServo::GetMaximumPeriod()
-{
-  return this->GetReport().MaximumPeriod;
-}
-
-double vtkHapticServo::GetPeriodQuantile(double fraction)
-{
-  return haptics::Quantile(this->GetReport().Periods, fraction);
-}
-
-double vtkHapticServo::GetTickTimeQuantile(double fraction)
-{
-  return haptics::Quantile(this->GetReport().TickTimes, fraction);
-}
-
-double vtkHapticServo::GetMaximumTickTime()
-{
-  return this->GetReport().MaximumTickTime;
-}
-
-int vtkHapticServo::GetNumberOfHistogramBins()
-{
-  return haptics::LogHistogram::NumberOfBins;
-}
-
-double vtkHapticServo::GetHistogramEdge(int bin)
-{
-  return bin < 0 || bin > haptics::LogHistogram::NumberOfBins
-    ? 0.0
-    : static_cast<double>(haptics::LogHistogram::LowerEdge(bin)) / NanosecondsInSecond;
-}
-
-vtkTypeInt64 vtkHapticServo::GetPeriodCount(int bin)
-{
-  return bin < 0 || bin >= haptics::LogHistogram::NumberOfBins
-    ? 0
-    : static_cast<vtkTypeInt64>(this->GetReport().Periods[static_cast<std::size_t>(bin)]);
-}
-
-vtkTypeInt64 vtkHapticServo::GetTickTimeCount(int bin)
-{
-  return bin < 0 || bin >= haptics::LogHistogram::NumberOfBins
-    ? 0
-    : static_cast<vtkTypeInt64>(this->GetReport().TickTimes[static_cast<std::size_t>(bin)]);
+  return static_cast<vtkTypeInt64>(this->Internal->Loop.GetNumberOfHalts());
 }
 
 vtkTypeInt64 vtkHapticServo::GetNumberOfLostRecords()
@@ -461,35 +395,4 @@ const haptics::TickRecord& vtkHapticServo::GetLatestRecord() const
 haptics::ServoReport vtkHapticServo::GetReport() const
 {
   return this->Internal->Statistics.Report();
-}
-
-void vtkHapticServo::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  const haptics::TickRecord& tick = this->GetLatestRecord();
-  const haptics::ServoReport report = this->GetReport();
-  const auto print = [&os, indent](const char* name, const haptics::Vec3& v, const char* unit)
-  { os << indent << name << ": (" << v[0] << ", " << v[1] << ", " << v[2] << ")" << unit << "\n"; };
-  os << indent << "Device: " << this->Device.Get() << "\n";
-  os << indent << "Rate: " << this->Rate << " Hz\n";
-  os << indent << "RealTimePriority: " << (this->RealTimePriority ? "on" : "off") << "\n";
-  os << indent << "PriorityNote: " << this->PriorityNote << "\n";
-  os << indent << "StallLimit: " << this->StallLimit << " s\n";
-  os << indent << "Stiffness: " << this->Stiffness << " N/m, in effect "
-     << this->GetEffectiveStiffness() << " N/m\n";
-  os << indent << "MaximumForce: " << this->MaximumForce << " N, in effect "
-     << this->GetEffectiveMaximumForce() << " N\n";
-  os << indent << "State: " << this->GetStateAsString() << "\n";
-  os << indent << "ErrorMessage: " << this->ErrorMessage << "\n";
-  print("HapticInterfacePoint", tick.Hip, "");
-  print("GodObject", tick.GodObject, "");
-  print("Force", tick.Force, " N");
-  os << indent << "Penetration: " << tick.Penetration << "\n";
-  os << indent << "NumberOfConstraints: " << tick.NumberOfConstraints << "\n";
-  os << indent << "NumberOfTicks: " << report.Ticks << "\n";
-  os << indent << "NumberOfMissedTicks: " << report.MissedTicks << "\n";
-  os << indent << "MeasuredRate: " << report.Rate() << " Hz\n";
-  os << indent << "PeriodRatio: " << report.PeriodRatio << " s\n";
-  os << indent << "MaximumPeriod: " << report.MaximumPeriod << " s\n";
-  os << indent << "NumberOfLostRecords: " << this->GetNumberOfLostRecords() << "\n";
 }

@@ -11,11 +11,14 @@
  * from it goes wait-free: settings and surfaces at once at its next tick, its state when Update()
  * is called.
  *
- * Safety: the force is zero after Stop(), after destruction, and from the very tick on in which
- * the device is lost, tells a position that is not finite, or in which the displacement is not
- * finite. After a gap of more than StallLimit between two ticks it is zero too. The servo then has
+ * Safety: the force is zero after Stop(), after destruction, while paused, when the process ends,
+ * and from the very tick on in which the device is lost, tells a position that is not finite, or
+ * in which the displacement is not finite. A watchdog takes it away while a tick is overdue; after
+ * too many missed deadlines or a gap of more than StallLimit the run ends. The servo then has
  * stopped in the state that tells why, and stays so until Start() or Step(). No force is longer
- * than the device's or this object's MaximumForce.
+ * than the device's or this object's MaximumForce, none grows faster than GetSafety() allows, and
+ * no surface is stiffer than device and measured periods can hold. README.md in this folder has
+ * the table.
  *
  * vtkHapticScene gives it the surfaces; without any it is free space and all forces are zero.
  *
@@ -28,6 +31,7 @@
 
 #include "vtkCommand.h"
 #include "vtkHapticsInteractorsModule.h"
+#include "vtkNew.h"
 #include "vtkObject.h"
 #include "vtkSmartPointer.h"
 
@@ -38,6 +42,7 @@
 #include <vector>
 
 class vtkHapticDevice;
+class vtkHapticSafety;
 class vtkMatrix4x4;
 
 namespace haptics
@@ -63,7 +68,9 @@ public:
     DeviceLost,      ///< the device did not answer or was closed
     InvalidPosition, ///< the device told a position that is not finite
     InvalidForce,    ///< the displacement is not finite in the device frame
-    Stalled          ///< two ticks were more than StallLimit apart
+    Stalled,         ///< two ticks were more than StallLimit apart
+    Overrun,         ///< more deadlines were missed than the safety's MissedTickShare
+    Interrupted      ///< a signal, exit or std::terminate; the process may have gone on
   };
 
   /// Invoked after GetState() has changed, from Start(), Step(), Stop() or Update(). No call data.
@@ -99,12 +106,17 @@ public:
   ///@{
   /**
    * The spring between HIP and god-object [N/m], device frame. Default 500, finite and >= 0; any
-   * other value is an error and changes nothing. What is used, GetEffectiveStiffness(), is not
-   * above the device's MaximumStiffness. Acts at the next tick.
+   * other value is an error and changes nothing. Acts at the next tick; a higher one is reached
+   * over the safety's SoftStartTime.
+   *
+   * What is used is not above the device's MaximumStiffness, nor what its Damping and Latency allow
+   * (see vtkHapticSafety): GetEffectiveStiffness() where all periods are exact,
+   * GetCurrentStiffness() as the latest tick had it; 0 before the first tick.
    */
   void SetStiffness(double stiffness);
   vtkGetMacro(Stiffness, double);
   double GetEffectiveStiffness();
+  double GetCurrentStiffness();
   ///@}
   ///@{
   /**
@@ -115,6 +127,25 @@ public:
   void SetMaximumForce(double force);
   vtkGetMacro(MaximumForce, double);
   double GetEffectiveMaximumForce();
+  ///@}
+
+  /// What keeps the force from hurting: slew, soft start, stiffness, watchdog, passivity. Not null.
+  vtkHapticSafety* GetSafety();
+
+  ///@{
+  /// While paused the servo goes on, with zero force from the next tick on; after it the force
+  /// grows softly. Default off.
+  void SetPaused(bool paused);
+  vtkGetMacro(Paused, bool);
+  vtkBooleanMacro(Paused, bool);
+  ///@}
+
+  ///@{
+  /// Whether a device that sets the pace (USB devices do) is waited for instead of the clock.
+  /// Default on; other devices are not concerned. Read by Start().
+  vtkSetMacro(DevicePaced, bool);
+  vtkGetMacro(DevicePaced, bool);
+  vtkBooleanMacro(DevicePaced, bool);
   ///@}
 
   ///@{
@@ -139,7 +170,8 @@ public:
   /// Ask for zero force and stop, waiting about a period for the thread. Keeps the statistics.
   void Stop();
   /**
-   * Run n >= 0 ticks in virtual time, one period apart, on this thread, then do what Update() does.
+   * Run n >= 0 ticks in virtual time, one period apart (or at the times of a recording, where the
+   * device plays one), on this thread, then do what Update() does.
    * The first one after Start(), Stop() or a fault begins at time 0 and forgets statistics and
    * records. Returns the ticks done: fewer than n where the device was lost, and none, with an
    * error, while running or without an open device.
@@ -176,6 +208,14 @@ public:
   double GetPenetration();                          ///< of the HIP [world unit]
   int GetNumberOfConstraints();                     ///< 0 in free space, to 3
   double GetTime();                                 ///< [s] since the start
+  double GetObservedEnergy(); ///< the passivity observer's balance [J]; 0 while it is off
+  ///@}
+
+  ///@{
+  /// What kept the latest force from being the plain spring's: bits of haptics::SafetyLimit, and
+  /// their names for people; 0 and empty where nothing did.
+  unsigned int GetForceLimits();
+  std::string DescribeForceLimits();
   ///@}
 
   ///@{
@@ -190,7 +230,8 @@ public:
    */
   vtkTypeInt64 GetNumberOfTicks();
   vtkTypeInt64 GetNumberOfMissedTicks();
-  double GetMeasuredRate(); ///< ticks a second [Hz]; 0 before the second tick
+  vtkTypeInt64 GetNumberOfHalts(); ///< how often the watchdog took the force from the device
+  double GetMeasuredRate();        ///< ticks a second [Hz]; 0 before the second tick
   double GetMeanPeriod();
   double GetPeriodRatio();
   double GetMaximumPeriod();
@@ -240,20 +281,24 @@ private:
   class Internals;
 
   bool Begin(int state);
-  void Configure();
+  void Configure(); // hands all settings to the servo thread
   void Fail(const std::string& message);
   bool NoticeState(int state);
 
   std::unique_ptr<Internals> Internal;
   vtkSmartPointer<vtkHapticDevice> Device;
   double Rate = 1000.0;
+  vtkNew<vtkHapticSafety> Safety;
   bool RealTimePriority = true;
+  bool DevicePaced = true;
+  bool Paused = false;
   double StallLimit = 0.5;
   double Stiffness = 500.0;
   double MaximumForce = VTK_DOUBLE_MAX;
   int State = Stopped;
   vtkTypeInt64 NextStep = 0; // number of the next tick in virtual time
   double StepPeriod = 0.001; // [s], of the run in virtual time
+  double LastStepTime = 0.0; // [s]
   std::string ErrorMessage;
   std::string PriorityNote;
 };

@@ -2,7 +2,9 @@
 #define SceneTestTools_h
 
 #include "vtkCallbackCommand.h"
+#include "vtkHapticSafety.h"
 #include "vtkHapticScene.h"
+#include "vtkHapticServo.h"
 #include "vtkNew.h"
 #include "vtkPlaneSource.h"
 #include "vtkPolyData.h"
@@ -55,7 +57,14 @@ struct LedHand
   vtkNew<vtkSimulatedHapticDevice> Device;
   vtkNew<vtkHapticScene> Scene;
 
-  LedHand() { this->Scene->SetDevice(this->Device); }
+  LedHand()
+  {
+    this->Scene->SetDevice(this->Device);
+    // This hand jumps by millimetres in a tick, and its force is tested in the next.
+    vtkHapticSafety* safety = this->Scene->GetServo()->GetSafety();
+    safety->LoosenSoftStartTime(0.0);
+    safety->LoosenSlewLimit(1e5);
+  }
 
   /// Moves the hand to a height over the table's middle and lets a tick go by.
   void MoveTo(double height)

@@ -1,6 +1,7 @@
 #include "ServoStatistics.h"
 #include "ServoTestTools.h"
 #include "TickRecord.h"
+#include "vtkHapticSafety.h"
 #include "vtkHapticServo.h"
 #include "vtkSimulatedHapticDevice.h"
 
@@ -53,7 +54,10 @@ protected:
     this->Device->SetSpeed(0.1);
     ASSERT_TRUE(this->Device->Open()) << this->Device->GetErrorMessage();
     this->Servo->SetDevice(this->Device);
-    this->Servo->SetStallLimit(60.0); // a busy machine is no fault in a test
+    // A busy machine is no fault in a test.
+    this->Servo->SetStallLimit(60.0);
+    this->Servo->GetSafety()->LoosenMissedTickShare(60.0);
+    this->Servo->GetSafety()->LoosenWatchdogTime(1.0);
     this->Servo->PublishGodObject(MakeGodObject(MakePlane()));
   }
 
@@ -212,6 +216,9 @@ TEST_F(HapticServo, StopsStepsAtAClosedDevice)
 TEST_F(HapticServo, LimitsStiffnessAndForceToTheDevices)
 {
   this->Servo->SetStiffness(5000.0);
+  EXPECT_NEAR(this->Servo->GetEffectiveStiffness(), 0.9 * 700.0, 1e-9) << "2b/T, a tenth below";
+  this->Device->SetDamping(0.0); // unknown
+  EXPECT_EQ(this->Servo->Step(0), 0);
   EXPECT_EQ(this->Servo->GetEffectiveStiffness(), 1000.0);
   EXPECT_EQ(this->Servo->GetEffectiveMaximumForce(), 3.3);
   ASSERT_EQ(this->Servo->Step(1000), 1000);

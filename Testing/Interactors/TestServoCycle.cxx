@@ -104,11 +104,13 @@ TEST(ServoCycle, ShortensAForceOverTheLimit)
   cycle.Configure(settings);
   const auto channel = MakePressingHand(0.002);
   cycle.Begin(channel, ServoState::Stepping);
-  ASSERT_EQ(RunTicks(cycle, 100), 100);
+  ASSERT_EQ(RunTicks(cycle, 200), 200); // it starts softly
   ExpectNear(channel->LastForce, { 0.0, 0.0, 0.25 }, 1e-12);
+  ASSERT_TRUE(cycle.UpdateLatest());
+  EXPECT_TRUE(cycle.GetLatest().Limits & haptics::ForceClamped);
 }
 
-TEST(ServoCycle, TakesNewSettingsAtTheNextTick)
+TEST(ServoCycle, TakesALowerStiffnessAtTheNextTickAndAHigherOneSlowly)
 {
   ServoCycle cycle(1024);
   cycle.GetExchange().Publish(MakeGodObject(MakePlane()));
@@ -116,9 +118,15 @@ TEST(ServoCycle, TakesNewSettingsAtTheNextTick)
   cycle.Begin(channel, ServoState::Stepping);
   ASSERT_EQ(RunTicks(cycle, 100), 100);
   ServoSettings settings;
-  settings.Force.Stiffness = 1000.0;
+  settings.Force.Stiffness = 250.0;
   cycle.Configure(settings);
   ASSERT_EQ(RunTicks(cycle, 1, 100), 1);
+  ExpectNear(channel->LastForce, { 0.0, 0.0, 0.5 }, ForceTolerance);
+  settings.Force.Stiffness = 1000.0;
+  cycle.Configure(settings);
+  ASSERT_EQ(RunTicks(cycle, 1, 101), 1);
+  ExpectNear(channel->LastForce, { 0.0, 0.0, 0.52 }, ForceTolerance);
+  ASSERT_EQ(RunTicks(cycle, 100, 102), 100);
   ExpectNear(channel->LastForce, { 0.0, 0.0, 2.0 }, 2.0 * ForceTolerance);
 }
 

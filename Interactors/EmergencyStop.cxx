@@ -1,0 +1,179 @@
+#include "EmergencyStop.h"
+
+#include "ServoCycle.h"
+
+#include <array>
+#include <atomic>
+#include <cstdlib>
+#include <exception>
+
+#ifdef __unix__
+#include <cerrno>
+#include <csignal>
+#include <ctime>
+#include <pthread.h>
+#endif
+
+namespace haptics
+{
+namespace
+{
+// Plain atomics: a signal handler may touch nothing else.
+std::atomic<std::uint32_t> Requests{ 0 };
+std::atomic<int> RunningServos{ 0 };
+static_assert(std::atomic<std::uint32_t>::is_always_lock_free, "used in signal handlers");
+
+// The cycle that this thread runs; null in all but servo threads.
+thread_local ServoCycle* OwnCycle = nullptr;
+
+#ifdef __unix__
+constexpr std::array<int, 4> Signals{ SIGINT, SIGTERM, SIGHUP, SIGQUIT };
+std::array<struct sigaction, Signals.size()> Previous;
+
+void Sleep(long nanoseconds) noexcept
+{
+  const timespec time{ 0, nanoseconds };
+  nanosleep(&time, nullptr);
+}
+#endif
+
+/// Safe in a signal handler.
+void StopAllServos() noexcept
+{
+  Requests.fetch_add(1, std::memory_order_acq_rel);
+  if (OwnCycle)
+  {
+    // This servo thread ends the process itself and cannot wait for its own next tick.
+    OwnCycle->End(ServoState::Interrupted);
+    OwnCycle = nullptr;
+    RunningServos.fetch_sub(1);
+  }
+#ifdef __unix__
+  constexpr long Pause = 250000; // [ns]
+  for (int i = 0; i < 1000 && RunningServos.load(std::memory_order_acquire) > 0; ++i)
+  {
+    Sleep(Pause);
+  }
+#endif
+}
+
+#ifdef __unix__
+void HandleSignal(int signal, siginfo_t* information, void* context)
+{
+  const int error = errno;
+  StopAllServos();
+  for (std::size_t i = 0; i < Signals.size(); ++i)
+  {
+    if (Signals[i] != signal)
+    {
+      continue;
+    }
+    const struct sigaction& previous = Previous[i];
+    if ((previous.sa_flags & SA_SIGINFO) != 0)
+    {
+      previous.sa_sigaction(signal, information, context);
+    }
+    else if (previous.sa_handler != SIG_DFL)
+    {
+      previous.sa_handler(signal);
+    }
+    else
+    {
+      sigaction(signal, &previous, nullptr);
+      raise(signal);
+    }
+  }
+  errno = error;
+}
+
+void TakeSignals()
+{
+  for (std::size_t i = 0; i < Signals.size(); ++i)
+  {
+    struct sigaction present
+    {
+    };
+    sigaction(Signals[i], nullptr, &present);
+    const bool hasInformation = (present.sa_flags & SA_SIGINFO) != 0;
+    const bool isIgnored = !hasInformation && present.sa_handler == SIG_IGN;
+    const bool isOurs = hasInformation && present.sa_sigaction == HandleSignal;
+    if (!isIgnored && !isOurs)
+    {
+      Previous[i] = present;
+      struct sigaction ours
+      {
+      };
+      ours.sa_sigaction = HandleSignal;
+      ours.sa_flags = SA_SIGINFO | (present.sa_flags & (SA_RESTART | SA_ONSTACK));
+      ours.sa_mask = present.sa_mask;
+      sigaction(Signals[i], &ours, nullptr);
+    }
+  }
+}
+#endif
+
+std::terminate_handler PreviousTerminate = nullptr;
+
+[[noreturn]] void HandleTerminate()
+{
+  StopAllServos();
+  if (PreviousTerminate)
+  {
+    PreviousTerminate();
+  }
+  std::abort();
+}
+
+void HandleExit()
+{
+  StopAllServos();
+}
+}
+
+void EmergencyStop::Install()
+{
+#ifdef __unix__
+  TakeSignals();
+#endif
+  if (std::get_terminate() != HandleTerminate)
+  {
+    PreviousTerminate = std::set_terminate(HandleTerminate);
+  }
+  static const bool isRegistered = std::atexit(HandleExit) == 0;
+  (void)isRegistered;
+}
+
+void EmergencyStop::LeaveSignalsToOtherThreads() noexcept
+{
+#ifdef __unix__
+  sigset_t signals;
+  sigemptyset(&signals);
+  for (const int signal : Signals)
+  {
+    sigaddset(&signals, signal);
+  }
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+#endif
+}
+
+EmergencyStop::EmergencyStop(ServoCycle& cycle) noexcept
+  : RequestsBefore(Requests.load(std::memory_order_acquire))
+{
+  RunningServos.fetch_add(1, std::memory_order_acq_rel);
+  OwnCycle = &cycle;
+}
+
+EmergencyStop::~EmergencyStop()
+{
+  if (OwnCycle)
+  {
+    OwnCycle = nullptr;
+    RunningServos.fetch_sub(1, std::memory_order_acq_rel);
+  }
+}
+
+bool EmergencyStop::IsRequested() const noexcept
+{
+  return Requests.load(std::memory_order_acquire) != this->RequestsBefore;
+}
+}

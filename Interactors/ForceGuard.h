@@ -1,0 +1,72 @@
+#ifndef ForceGuard_h
+#define ForceGuard_h
+
+#include "ForceModel.h"
+#include "PassivityController.h"
+#include "SafetySettings.h"
+#include "StiffnessLimit.h"
+#include "Vec3.h"
+#include "vtkHapticsInteractorsModule.h"
+
+#include <cstdint>
+
+namespace haptics
+{
+/// What a force is made from, device frame.
+struct GuardedContact
+{
+  Vec3 Position{};     ///< of the HIP [m]
+  Vec3 Displacement{}; ///< of the god-object from the HIP [m]
+  bool Touching = false;
+  double Period = 0.0; ///< since the last tick [s]
+};
+
+/// @brief From a contact to the force that a hand may be given. Servo thread.
+///
+///     stiffness limit -> spring -> contact damping -> passivity -> clamp -> slew, soft start
+///
+/// A force may shrink at once, but grows and turns no faster than the slew limit:
+///
+///        allowed next force: within slew * T of the line from zero to the last force
+///             ________
+///         0 ( o------> )  last force
+///             --------
+class VTKHAPTICSINTERACTORS_EXPORT ForceGuard
+{
+public:
+  /// Readies a new run; it begins with a soft start.
+  void Restart(const SafetySettings& settings) noexcept;
+  /// From here on the force grows softly for a while: surfaces, transform or time have jumped.
+  void StartSoftly(const SafetySettings& settings) noexcept;
+  /// The device has let go of the last force: the next one grows from zero.
+  void Release() noexcept { this->Last = {}; }
+  /// The force to ask for [N]; finite, and never longer than `model` allows.
+  Vec3 Force(const GuardedContact& contact, const ForceModel& model,
+    const SafetySettings& settings) noexcept;
+
+  /// What limited the last force: bits of SafetyLimit.
+  std::uint32_t GetLimits() const noexcept { return this->Limits; }
+  /// The stiffness of the last force [N/m].
+  double GetStiffness() const noexcept { return this->Stiffness; }
+  /// The passivity observer's balance [J]; 0 while it is off.
+  double GetEnergy() const noexcept { return this->Passivity.GetEnergy(); }
+
+private:
+  Vec3 Damping(const GuardedContact& contact, const SafetySettings& settings) noexcept;
+  Vec3 LimitSlew(
+    const Vec3& force, double period, double maximumForce, const SafetySettings& settings) noexcept;
+
+  StiffnessLimit Stiffener;
+  PassivityController Passivity;
+  Vec3 Last{}; // the last force [N]
+  Vec3 LastPosition{};
+  bool HasPosition = false;
+  bool WasPaused = false;
+  double NormalSpeed = 0.0; // [m/s], smoothed
+  double SoftTimeLeft = 0.0;
+  double Stiffness = 0.0;
+  std::uint32_t Limits = 0;
+};
+}
+
+#endif

@@ -1,0 +1,59 @@
+#include "Watchdog.h"
+
+#include "DeviceChannel.h"
+#include "EmergencyStop.h"
+#include "RealTimePriority.h"
+
+#include <chrono>
+
+namespace haptics
+{
+Watchdog::Watchdog(DeviceChannel& channel, std::uint64_t limit)
+  : Channel(channel)
+  , Limit(limit)
+  , Thread([this] { this->Run(); })
+{
+}
+
+Watchdog::~Watchdog()
+{
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    this->End = true;
+  }
+  this->Ending.notify_one();
+  this->Thread.join();
+}
+
+void Watchdog::Run()
+{
+  EmergencyStop::LeaveSignalsToOtherThreads();
+  RequestRealTimePriority(Urgency::AboveServo);
+  // Four looks a limit: it bites after 1 to 1.25 limits.
+  const auto look = std::chrono::nanoseconds(this->Limit / 4 + 1);
+  const auto limit = std::chrono::nanoseconds(this->Limit);
+  std::uint64_t seen = this->Fed.load(std::memory_order_acquire);
+  auto since = std::chrono::steady_clock::now();
+  bool isBiting = false;
+  std::unique_lock<std::mutex> lock(this->Mutex);
+  while (!this->Ending.wait_for(lock, look, [this] { return this->End; }))
+  {
+    const auto now = std::chrono::steady_clock::now();
+    const std::uint64_t fed = this->Fed.load(std::memory_order_acquire);
+    if (fed != seen)
+    {
+      seen = fed;
+      since = now;
+      isBiting = false;
+    }
+    else if (!isBiting && now - since >= limit)
+    {
+      isBiting = true;
+      // Halted first: whoever learns of the bite may resume.
+      this->Channel.Halt();
+      this->Bites.fetch_add(1);
+      this->Bitten.store(true, std::memory_order_release);
+    }
+  }
+}
+}

@@ -1,0 +1,193 @@
+// A child process presses on a plane with a real servo thread and ends in one of many ways; the
+// device is in memory that it shares with this one, which reads what the hand was left with.
+#include "ServoLoop.h"
+#include "ServoTestTools.h"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <new>
+#include <stdexcept>
+#include <thread>
+
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace
+{
+/// What both processes see of the device.
+struct SharedDevice
+{
+  std::atomic<double> Force{ 0.0 };   ///< [N] upwards, what was written last
+  std::atomic<double> Largest{ 0.0 }; ///< [N]
+  std::atomic<bool> Throw{ false };
+  std::atomic<bool> Survived{ false };
+};
+
+void ThrowDriversFault()
+{
+  throw std::runtime_error("a driver's fault");
+}
+
+class SharedChannel : public haptics::DeviceChannel
+{
+public:
+  explicit SharedChannel(SharedDevice& device)
+    : Device(device)
+  {
+  }
+  bool Read(double time, haptics::DeviceSample& sample) noexcept override
+  {
+    if (this->Device.Throw)
+    {
+      ThrowDriversFault(); // leaves a noexcept function: std::terminate
+    }
+    sample.Position = { 0.0, 0.0, std::max(0.005 - 0.1 * time, -0.002) };
+    return true;
+  }
+  void Write(const std::array<double, 3>& force) noexcept override
+  {
+    this->Device.Force = force[2];
+    this->Device.Largest = std::max(this->Device.Largest.load(), force[2]);
+  }
+
+private:
+  SharedDevice& Device;
+};
+
+/// Runs `end` in a child that is pressing with about 1 N; gives how the child ended.
+template <typename Function>
+int EndWhilePressing(SharedDevice& device, Function end)
+{
+  const pid_t child = fork();
+  if (child == 0)
+  {
+    // Never destroyed: nothing but the emergency stop can take the force away.
+    auto* cycle = new haptics::ServoCycle(1024);
+    auto* statistics = new haptics::ServoStatistics;
+    auto* loop = new haptics::ServoLoop(*cycle, *statistics);
+    cycle->GetExchange().Publish(MakeGodObject(MakePlane()));
+    cycle->Begin(std::make_shared<SharedChannel>(device), haptics::ServoState::Running);
+    haptics::ServoTiming timing;
+    timing.WatchdogTime = 60000000000;
+    timing.StallLimit = 60000000000;
+    timing.MissedShare = 60.0;
+    std::string error;
+    if (!loop->Start(timing, error))
+    {
+      _exit(99);
+    }
+    while (device.Force < 0.9)
+    {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    end(device);
+    _exit(98);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  return status;
+}
+
+class EmergencyStop : public ::testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    this->Memory = mmap(
+      nullptr, sizeof(SharedDevice), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    ASSERT_NE(this->Memory, MAP_FAILED);
+    this->Device = new (this->Memory) SharedDevice;
+  }
+  void TearDown() override
+  {
+    EXPECT_GE(this->Device->Largest, 0.9) << "the hand was pressing";
+    EXPECT_EQ(this->Device->Force, 0.0) << "what the hand was left with";
+    munmap(this->Memory, sizeof(SharedDevice));
+  }
+
+  void* Memory = nullptr;
+  SharedDevice* Device = nullptr;
+};
+
+TEST_F(EmergencyStop, SignalsTakeTheForceAwayAndStillEndTheProcess)
+{
+  for (const int signal : { SIGTERM, SIGINT, SIGHUP, SIGQUIT })
+  {
+    this->Device->Force = 0.0;
+    const int status = EndWhilePressing(*this->Device, [signal](SharedDevice&) { raise(signal); });
+    EXPECT_TRUE(WIFSIGNALED(status)) << signal;
+    EXPECT_EQ(WTERMSIG(status), signal);
+    EXPECT_EQ(this->Device->Force, 0.0) << signal;
+  }
+}
+
+TEST_F(EmergencyStop, ASignalOfAnotherProcessDoesToo)
+{
+  const int status = EndWhilePressing(*this->Device,
+    [](SharedDevice&)
+    {
+      const pid_t self = getpid();
+      if (fork() == 0)
+      {
+        kill(self, SIGTERM);
+        _exit(0);
+      }
+      std::this_thread::sleep_for(std::chrono::seconds(20));
+    });
+  EXPECT_TRUE(WIFSIGNALED(status));
+  EXPECT_EQ(WTERMSIG(status), SIGTERM);
+}
+
+SharedDevice* HandlersDevice = nullptr;
+
+TEST_F(EmergencyStop, AHandlerThatWasThereBeforeIsStillCalled)
+{
+  HandlersDevice = this->Device;
+  const auto previous =
+    std::signal(SIGINT, [](int) { HandlersDevice->Survived = HandlersDevice->Force == 0.0; });
+  const int status = EndWhilePressing(*this->Device,
+    [](SharedDevice&)
+    {
+      raise(SIGINT);
+      _exit(7); // the handler did not end the process
+    });
+  std::signal(SIGINT, previous);
+  EXPECT_TRUE(this->Device->Survived) << "and the force was gone by then";
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 7);
+}
+
+TEST_F(EmergencyStop, ExitTakesTheForceAway)
+{
+  const int status = EndWhilePressing(*this->Device, [](SharedDevice&) { std::exit(3); });
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 3);
+}
+
+TEST_F(EmergencyStop, AnExceptionThatNobodyCatchesTakesTheForceAway)
+{
+  const int status = EndWhilePressing(*this->Device,
+    [](SharedDevice&)
+    {
+      std::thread thrower([] { throw std::runtime_error("nobody's"); });
+      thrower.join();
+    });
+  EXPECT_TRUE(WIFSIGNALED(status));
+  EXPECT_EQ(WTERMSIG(status), SIGABRT);
+}
+
+TEST_F(EmergencyStop, AnExceptionInTheServoThreadItselfTakesTheForceAway)
+{
+  const int status = EndWhilePressing(*this->Device,
+    [](SharedDevice& device)
+    {
+      device.Throw = true;
+      std::this_thread::sleep_for(std::chrono::seconds(20));
+    });
+  EXPECT_TRUE(WIFSIGNALED(status));
+  EXPECT_EQ(WTERMSIG(status), SIGABRT);
+}
+}
