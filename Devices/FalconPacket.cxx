@@ -1,6 +1,7 @@
 #include "FalconPacket.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace haptics
 {
@@ -103,6 +104,25 @@ bool Decode(const FalconPacket& packet, FalconReply& reply) noexcept
   read.HomedLegs = static_cast<std::uint8_t>(flags >> HomedShift);
   reply = read;
   return true;
+}
+
+std::array<std::int16_t, 3> ClampTorques(const std::array<double, 3>& torques) noexcept
+{
+  double largest = FalconMaximumTorque;
+  for (const double torque : torques)
+  {
+    if (!std::isfinite(torque))
+    {
+      return {};
+    }
+    largest = std::max(largest, std::abs(torque));
+  }
+  std::array<std::int16_t, 3> clamped{};
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    clamped[i] = static_cast<std::int16_t>(std::lround(torques[i] / largest * FalconMaximumTorque));
+  }
+  return clamped;
 }
 
 bool FalconPacketReader::Push(std::uint8_t byte, FalconReply& reply) noexcept

@@ -34,6 +34,7 @@ struct FalconReply
   std::uint8_t HomedLegs = 0;             ///< bits 0 to 2: the encoder of that leg has its origin
 };
 
+constexpr double FalconMaximumTorque = 4095.0; ///< motor units
 constexpr std::uint8_t FalconAllHomed = 7;
 constexpr std::size_t FalconPacketSize = 16;
 using FalconPacket = std::array<std::uint8_t, FalconPacketSize>;
@@ -54,6 +55,11 @@ VTKHAPTICSDEVICES_EXPORT FalconPacket Encode(const FalconReply& reply) noexcept;
 VTKHAPTICSDEVICES_EXPORT bool Decode(const FalconPacket& packet, FalconCommand& command) noexcept;
 VTKHAPTICSDEVICES_EXPORT bool Decode(const FalconPacket& packet, FalconReply& reply) noexcept;
 ///@}
+
+/// Motor units to send: all three scaled down where one is beyond what the device takes, so that
+/// the force keeps its direction; zero where one is not finite.
+VTKHAPTICSDEVICES_EXPORT std::array<std::int16_t, 3> ClampTorques(
+  const std::array<double, 3>& torques) noexcept;
 
 /// @brief Finds the packets in a stream of bytes that comes in pieces of any length.
 ///

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -128,6 +130,19 @@ TEST(FalconPacket, RefusesEveryByteThatEncodeCannotWrite)
   }
   FalconCommand command;
   EXPECT_FALSE(Decode(Packet("<AAAAAAAAAAAAQA>"), command)) << "a command has four flags";
+}
+
+TEST(FalconTorques, AreClampedTogetherSoThatTheForceKeepsItsDirection)
+{
+  using Units = std::array<std::int16_t, 3>;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(haptics::ClampTorques({ 4095.0, -4095.0, 0.4 }), (Units{ 4095, -4095, 0 }));
+  EXPECT_EQ(haptics::ClampTorques({ 8190.0, -4000.0, 2.0 }), (Units{ 4095, -2000, 1 }));
+  EXPECT_EQ(haptics::ClampTorques({ 33000.0, 0.0, 0.0 }), (Units{ 4095, 0, 0 }))
+    << "16 bits would have wrapped to -32536";
+  EXPECT_EQ(haptics::ClampTorques({ 1e300, -1e300, 1.0 }), (Units{ 4095, -4095, 0 }));
+  EXPECT_EQ(haptics::ClampTorques({ 1.0, nan, 1.0 }), (Units{}));
+  EXPECT_EQ(haptics::ClampTorques({ 1.0, HUGE_VAL, 1.0 }), (Units{}));
 }
 
 std::vector<FalconReply> Feed(haptics::FalconPacketReader& reader, const std::string& bytes)

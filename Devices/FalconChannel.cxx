@@ -1,0 +1,89 @@
+#include "FalconChannel.h"
+
+#include "FalconLink.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace haptics
+{
+namespace
+{
+// The transport gives up first where the device is silent; this is for a transport that gets no
+// time.
+constexpr double LongestSilence = 0.15; // [s]
+}
+
+FalconChannel::FalconChannel(
+  std::shared_ptr<FalconLink> link, double torqueScale, double maximumForce)
+  : Link(std::move(link))
+  , TorqueScale(torqueScale)
+  , MaximumForce(maximumForce)
+{
+}
+
+FalconChannel::~FalconChannel() = default;
+
+const char* FalconChannel::GetProblem() const noexcept
+{
+  switch (this->Trouble.load(std::memory_order_acquire))
+  {
+    case Problem::OldAnswer:
+      return "No new position of the Falcon came for 0.15 s: the machine is too busy. Relieve it, "
+             "or let the program have real-time priority, then open the device again.";
+    case Problem::ImpossiblePose:
+      return "The Falcon's encoders tell a pose that its arms cannot take, so its origin is wrong. "
+             "Close it, open it and home it again.";
+    default:
+      return "";
+  }
+}
+
+bool FalconChannel::ReadDevice(double time, DeviceSample& sample) noexcept
+{
+  if (!this->Link->Up.load(std::memory_order_acquire))
+  {
+    return false;
+  }
+  if (this->Link->Answers.Update() || time < this->Answered)
+  {
+    this->Answered = time; // a smaller time: the servo was started anew
+  }
+  else if (time - this->Answered > LongestSilence)
+  {
+    this->Trouble.store(Problem::OldAnswer, std::memory_order_release);
+    return false;
+  }
+  const FalconReply& reply = this->Link->Answers.Get().Reply;
+  for (std::size_t leg = 0; leg < 3; ++leg)
+  {
+    this->Angles[leg] = FalconKinematics::AngleOfCount(reply.Encoders[leg]);
+  }
+  if (!FalconKinematics::Forward(this->Angles, this->Position))
+  {
+    this->Trouble.store(Problem::ImpossiblePose, std::memory_order_release);
+    return false;
+  }
+  sample.Position = this->Position;
+  sample.Buttons = reply.Buttons;
+  return true;
+}
+
+void FalconChannel::WriteDevice(const std::array<double, 3>& force) noexcept
+{
+  std::array<double, 3> torques{};
+  FalconKinematics::Matrix jacobian{};
+  if (FalconKinematics::Jacobian(this->Position, this->Angles, jacobian))
+  {
+    torques = FalconKinematics::Torques(jacobian, force);
+  }
+  const double magnitude = std::hypot(force[0], force[1], force[2]);
+  const double share = magnitude > this->MaximumForce ? this->MaximumForce / magnitude : 1.0;
+  for (double& torque : torques)
+  {
+    torque *= share * this->TorqueScale;
+  }
+  this->Link->Torques.Publish(torques); // not finite becomes zero where they are sent
+}
+}

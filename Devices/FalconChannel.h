@@ -1,0 +1,54 @@
+#ifndef FalconChannel_h
+#define FalconChannel_h
+
+#include "FalconKinematics.h"
+#include "MonitoredChannel.h"
+#include "vtkHapticsDevicesModule.h"
+
+#include <atomic>
+#include <cstddef>
+#include <memory>
+
+namespace haptics
+{
+struct FalconLink;
+
+/// @brief The servo thread's end of a Falcon: encoder counts to a position, a force to torques.
+///
+/// Talks to the FalconTransport through its link, wait-free; never to libusb.
+class VTKHAPTICSDEVICES_EXPORT FalconChannel : public MonitoredChannel
+{
+public:
+  /// The torque scale [motor units per N m], see vtkFalconHapticDevice; the largest force [N].
+  FalconChannel(std::shared_ptr<FalconLink> link, double torqueScale, double maximumForce);
+  ~FalconChannel() override;
+
+  /// Why Read() returned false, for people; empty where it did not or where the transport knows
+  /// better. Any thread.
+  const char* GetProblem() const noexcept;
+
+protected:
+  bool ReadDevice(double time, DeviceSample& sample) noexcept override;
+  void WriteDevice(const std::array<double, 3>& force) noexcept override;
+
+private:
+  enum class Problem
+  {
+    None,
+    OldAnswer,
+    ImpossiblePose
+  };
+
+  const std::shared_ptr<FalconLink> Link;
+  const double TorqueScale;
+  const double MaximumForce;
+  std::atomic<Problem> Trouble{ Problem::None };
+
+  // The servo thread's own.
+  double Answered = 0.0; // when the last new answer was read [s]
+  FalconKinematics::Vector Angles{};
+  FalconKinematics::Vector Position{};
+};
+}
+
+#endif

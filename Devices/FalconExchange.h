@@ -1,0 +1,44 @@
+#ifndef FalconExchange_h
+#define FalconExchange_h
+
+#include "FalconLink.h"
+#include "FalconUsb.h"
+
+#include <cstdint>
+#include <functional>
+
+namespace haptics
+{
+/// @brief Exchanges packets with a Falcon whose firmware runs. For the thread of its FalconUsb.
+class FalconExchange
+{
+public:
+  /// Both must outlive it.
+  FalconExchange(FalconUsb& usb, FalconLink& link);
+
+  /// True where the firmware answers. Takes up to 0.1 s.
+  bool IsAnswered();
+  /// Exchanges with zero torque until all legs are homed. `progress` gets the homed legs, whenever
+  /// they change.
+  void Home(const std::function<void(std::uint8_t)>& progress);
+  /// Exchanges the servo's torques, until FalconFault or FalconStopped is thrown. Calls `ready`
+  /// once, when the link is up.
+  void Serve(double commandTimeout, const std::function<void()>& ready);
+  /// Sends zero torque, dark lamps. Waits for 50 ms at most; throws what FalconUsb throws.
+  void SayFarewell();
+
+private:
+  bool TryOnce(const FalconCommand& command, FalconReply& reply, int timeout);
+  FalconReply Exchange(FalconCommand command);
+  void WaitForNextTick();
+
+  FalconUsb& Usb;
+  FalconLink& Link;
+  FalconPacketReader Reader;
+  FalconUsb::Transfer Out;
+  FalconUsb::Transfer In;
+  std::int64_t NextTick = 0; // [ns] on the steady clock
+};
+}
+
+#endif

@@ -1,0 +1,218 @@
+#include "FalconTransport.h"
+
+#include "FalconBoot.h"
+#include "FalconExchange.h"
+#include "FalconUsb.h"
+
+#include <pthread.h>
+
+#include <utility>
+#include <vector>
+
+namespace haptics
+{
+namespace
+{
+constexpr int UploadTries = 3;
+constexpr int HotplugCheck = 20;     // [ms]
+constexpr int RealTimePriority = 40; // of 1 to 99, as for a driver
+
+/// Says farewell to a device that was opened and lets go of it, however its session ends.
+class Parting
+{
+public:
+  Parting(FalconUsb& usb, FalconLink& link)
+    : Usb(usb)
+    , Link(link)
+  {
+  }
+  ~Parting()
+  {
+    this->Link.Up.store(false, std::memory_order_release);
+    this->Usb.SetStoppable(false);
+    if (this->Link.Exchanges.load(std::memory_order_relaxed) > 0)
+    {
+      try
+      {
+        FalconExchange(this->Usb, this->Link).SayFarewell();
+      }
+      catch (const FalconFault&)
+      {
+        // Gone or stuck: why the session ended is told already, and says as much.
+      }
+    }
+    this->Usb.Close();
+    this->Usb.SetStoppable(true);
+  }
+  Parting(const Parting&) = delete;
+  Parting& operator=(const Parting&) = delete;
+
+private:
+  FalconUsb& Usb;
+  FalconLink& Link;
+};
+
+/// The packets go out in time then even while the machine is busy.
+bool RequestRealTime()
+{
+  sched_param parameters{};
+  parameters.sched_priority = RealTimePriority;
+  return pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters) == 0;
+}
+
+std::string HomingText(std::uint8_t homed)
+{
+  int legs = 0;
+  for (int leg = 0; leg < 3; ++leg)
+  {
+    legs += (homed >> leg) & 1;
+  }
+  return "Homing, " + std::to_string(legs) +
+    " of 3 legs done: pull the grip all the way out, then push it all the way in.";
+}
+}
+
+FalconTransport::FalconTransport(const FalconSettings& settings)
+  : Settings(settings)
+{
+  this->Thread = std::thread(&FalconTransport::Run, this);
+}
+
+FalconTransport::~FalconTransport()
+{
+  this->RequestStop();
+  this->Thread.join();
+}
+
+FalconStatus FalconTransport::GetStatus() const
+{
+  const std::lock_guard<std::mutex> lock(this->StatusMutex);
+  return this->Status;
+}
+
+template <typename Change>
+void FalconTransport::ChangeStatus(Change change)
+{
+  const std::lock_guard<std::mutex> lock(this->StatusMutex);
+  change(this->Status);
+}
+
+void FalconTransport::Tell(FalconPhase phase, const std::string& text)
+{
+  this->ChangeStatus(
+    [&](FalconStatus& status)
+    {
+      status.Phase = phase;
+      status.Text = text;
+    });
+}
+
+void FalconTransport::Run()
+{
+  try
+  {
+    this->RunSessions();
+  }
+  catch (const FalconFault& fault)
+  {
+    this->Tell(FalconPhase::Faulted, fault.what());
+  }
+  catch (const FalconStopped&)
+  {
+    // Asked for: there is nothing to tell.
+  }
+}
+
+void FalconTransport::RunSessions()
+{
+  const bool realTime = RequestRealTime();
+  this->ChangeStatus([=](FalconStatus& status) { status.RealTime = realTime; });
+  FalconUsb usb(this->Stop);
+  while (true)
+  {
+    const unsigned int arrivals = usb.GetArrivals();
+    try
+    {
+      this->Session(usb);
+    }
+    catch (const FalconFault& fault)
+    {
+      this->Tell(FalconPhase::Faulted, fault.what());
+    }
+    do
+    {
+      usb.HandleEvents(HotplugCheck);
+      usb.CheckStop();
+      this->ChangeStatus([&](FalconStatus& status) { status.Arrivals = usb.GetArrivals(); });
+    } while (!this->Settings.OpenOnArrival || usb.GetArrivals() == arrivals);
+  }
+}
+
+void FalconTransport::Session(FalconUsb& usb)
+{
+  const auto link = std::make_shared<FalconLink>();
+  this->ChangeStatus(
+    [&](FalconStatus& status)
+    {
+      status.Phase = FalconPhase::Opening;
+      status.Text = "Looking for the Falcon.";
+      status.Progress = 0.0;
+      status.Arrivals = usb.GetArrivals();
+      status.Link = link;
+    });
+  usb.Open(this->Settings.DeviceIndex);
+  const Parting parting(usb, *link);
+  FalconExchange exchange(usb, *link);
+  this->BringUp(usb, exchange);
+  exchange.Home([this](std::uint8_t homed) { this->Tell(FalconPhase::Homing, HomingText(homed)); });
+  exchange.Serve(this->Settings.CommandTimeout,
+    [this] { this->Tell(FalconPhase::Ready, "The Falcon is ready."); });
+}
+
+void FalconTransport::BringUp(FalconUsb& usb, FalconExchange& exchange)
+{
+  this->Tell(FalconPhase::Opening, "Setting up the Falcon.");
+  FalconBoot::PrepareExchange(usb);
+  if (exchange.IsAnswered())
+  {
+    return;
+  }
+  if (this->Settings.FirmwareFile.empty())
+  {
+    throw FalconFault("The Falcon has no firmware loaded. Set FirmwareFile to the image that came "
+                      "with the device, then open it again.");
+  }
+  this->Upload(usb, exchange);
+}
+
+void FalconTransport::Upload(FalconUsb& usb, FalconExchange& exchange)
+{
+  const std::vector<std::uint8_t> firmware =
+    FalconBoot::ReadFirmwareFile(this->Settings.FirmwareFile);
+  for (int attempt = 1;; ++attempt)
+  {
+    this->Tell(FalconPhase::LoadingFirmware,
+      "Loading the Falcon's firmware, attempt " + std::to_string(attempt) + " of " +
+        std::to_string(UploadTries) + ".");
+    try
+    {
+      FalconBoot::LoadFirmware(usb, firmware,
+        [this](double share)
+        { this->ChangeStatus([=](FalconStatus& status) { status.Progress = share; }); });
+      if (exchange.IsAnswered())
+      {
+        return;
+      }
+      throw FalconBadUpload("The Falcon took the firmware " + this->Settings.FirmwareFile +
+        " but does not run it. Is it the image that came with the device?");
+    }
+    catch (const FalconBadUpload&)
+    {
+      if (attempt == UploadTries)
+      {
+        throw;
+      }
+    }
+  }
+}
+}

@@ -1,0 +1,250 @@
+#include "vtkFalconHapticDevice.h"
+
+#include "FalconChannel.h"
+#include "FalconTransport.h"
+
+#include "vtkObjectFactory.h"
+
+#include <cmath>
+#include <system_error>
+
+namespace
+{
+constexpr double SmallestTorqueScale = 100.0;  // [1/(N m)]
+constexpr double LargestTorqueScale = 20000.0; // [1/(N m)]
+
+int StateOf(haptics::FalconPhase phase)
+{
+  switch (phase)
+  {
+    case haptics::FalconPhase::Opening:
+      return vtkHapticDevice::Opening;
+    case haptics::FalconPhase::LoadingFirmware:
+      return vtkHapticDevice::LoadingFirmware;
+    case haptics::FalconPhase::Homing:
+      return vtkHapticDevice::Homing;
+    case haptics::FalconPhase::Ready:
+      return vtkHapticDevice::Ready;
+    default:
+      return vtkHapticDevice::Faulted;
+  }
+}
+
+vtkTypeInt64 Load(const std::atomic<std::uint64_t>& count)
+{
+  return static_cast<vtkTypeInt64>(count.load(std::memory_order_relaxed));
+}
+}
+
+vtkStandardNewMacro(vtkFalconHapticDevice);
+
+vtkFalconHapticDevice::vtkFalconHapticDevice()
+  : Link(std::make_shared<haptics::FalconLink>())
+{
+  this->MaximumForce = 8.0;
+  this->MaximumStiffness = 800.0; // up to 3000 was seen in the best case
+  this->NumberOfButtons = 4;
+  const double bounds[6] = { -0.03, 0.03, -0.03, 0.03, 0.095, 0.155 };
+  std::copy(bounds, bounds + 6, this->WorkspaceBounds);
+}
+
+vtkFalconHapticDevice::~vtkFalconHapticDevice() = default;
+
+bool vtkFalconHapticDevice::Open()
+{
+  if (this->IsOpen())
+  {
+    return true;
+  }
+  if (this->Transport && this->GetState() != Faulted)
+  {
+    return false;
+  }
+  this->LetGo();
+  this->Ending.reset();
+  haptics::FalconSettings settings;
+  settings.DeviceIndex = this->DeviceIndex;
+  settings.FirmwareFile = this->FirmwareFile;
+  settings.OpenOnArrival = this->OpenOnArrival;
+  try
+  {
+    this->Transport = std::make_unique<haptics::FalconTransport>(settings);
+  }
+  catch (const std::system_error& failure)
+  {
+    this->Fail(Faulted, std::string("The system gave no thread for the Falcon: ") + failure.what());
+    return false;
+  }
+  this->Arrivals = 0;
+  this->FirmwareProgress = 0.0;
+  this->SetState(Opening);
+  return false;
+}
+
+void vtkFalconHapticDevice::Close()
+{
+  this->BecomeClosed();
+  this->LetGo();
+  this->StatusMessage.clear();
+}
+
+void vtkFalconHapticDevice::LetGo()
+{
+  if (this->Transport)
+  {
+    this->Transport->RequestStop();
+    this->Ending = std::move(this->Transport);
+  }
+  this->Falcon.reset();
+}
+
+void vtkFalconHapticDevice::Update()
+{
+  if (!this->Transport)
+  {
+    return;
+  }
+  // Looked at first: what the transport tells then is the cause of it, if it is to blame.
+  const bool lost = this->Falcon && this->Falcon->IsLost();
+  this->Follow(this->Transport->GetStatus());
+  if (lost && this->IsOpen())
+  {
+    this->Fail(Faulted, this->Falcon->GetProblem());
+    this->StatusMessage = this->GetErrorMessage();
+    this->LetGo();
+  }
+}
+
+void vtkFalconHapticDevice::Follow(const haptics::FalconStatus& status)
+{
+  if (this->IsOpen() && status.Link != this->Link)
+  {
+    this->Fail(Faulted, "The Falcon was lost, and is being brought up again.");
+  }
+  this->Link = status.Link;
+  this->RealTime = status.RealTime;
+  const bool changed = this->StatusMessage != status.Text;
+  this->StatusMessage = status.Text;
+
+  const int state = StateOf(status.Phase);
+  if (state == Faulted)
+  {
+    if (this->GetState() != Faulted || changed)
+    {
+      this->Fail(Faulted, status.Text);
+    }
+  }
+  else if (state == Ready)
+  {
+    if (!this->IsOpen())
+    {
+      this->Link->Leds.store(static_cast<std::uint8_t>(this->Leds), std::memory_order_relaxed);
+      this->Falcon =
+        std::make_shared<haptics::FalconChannel>(this->Link, this->TorqueScale, this->MaximumForce);
+      this->BecomeReady(this->Falcon);
+    }
+  }
+  else
+  {
+    this->SetState(state);
+  }
+  if (changed)
+  {
+    this->InvokeEvent(StatusMessageChangedEvent);
+  }
+  this->TellProgress(status);
+}
+
+void vtkFalconHapticDevice::TellProgress(const haptics::FalconStatus& status)
+{
+  if (this->FirmwareProgress != status.Progress)
+  {
+    this->FirmwareProgress = status.Progress;
+    this->InvokeEvent(vtkCommand::ProgressEvent, &this->FirmwareProgress);
+  }
+  if (this->Arrivals != status.Arrivals)
+  {
+    this->Arrivals = status.Arrivals;
+    this->InvokeEvent(DeviceArrivedEvent);
+  }
+}
+
+const char* vtkFalconHapticDevice::GetStatusMessage() const
+{
+  return this->StatusMessage.c_str();
+}
+
+void vtkFalconHapticDevice::SetFirmwareFile(const char* path)
+{
+  const std::string file = path ? path : "";
+  if (this->FirmwareFile != file)
+  {
+    this->FirmwareFile = file;
+    this->Modified();
+  }
+}
+
+void vtkFalconHapticDevice::SetTorqueScale(double scale)
+{
+  const double magnitude = std::abs(scale);
+  if (!(magnitude >= SmallestTorqueScale && magnitude <= LargestTorqueScale))
+  {
+    vtkErrorMacro("The torque scale must be " << SmallestTorqueScale << " to " << LargestTorqueScale
+                                              << " per N m in magnitude, but is " << scale
+                                              << "; it stays " << this->TorqueScale << ".");
+    return;
+  }
+  if (this->TorqueScale != scale)
+  {
+    this->TorqueScale = scale;
+    this->Modified();
+  }
+}
+
+void vtkFalconHapticDevice::SetLeds(int leds)
+{
+  leds &= haptics::FalconLedAll;
+  if (this->Leds != leds)
+  {
+    this->Leds = leds;
+    this->Link->Leds.store(static_cast<std::uint8_t>(leds), std::memory_order_relaxed);
+    this->Modified();
+  }
+}
+
+vtkTypeInt64 vtkFalconHapticDevice::GetNumberOfExchanges() const
+{
+  return Load(this->Link->Exchanges);
+}
+
+vtkTypeInt64 vtkFalconHapticDevice::GetNumberOfMissedReplies() const
+{
+  return Load(this->Link->MissedReplies);
+}
+
+vtkTypeInt64 vtkFalconHapticDevice::GetNumberOfMalformedPackets() const
+{
+  return Load(this->Link->MalformedPackets);
+}
+
+vtkTypeInt64 vtkFalconHapticDevice::GetNumberOfLateCommands() const
+{
+  return Load(this->Link->LateCommands);
+}
+
+void vtkFalconHapticDevice::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "StatusMessage: " << this->StatusMessage << "\n";
+  os << indent << "DeviceIndex: " << this->DeviceIndex << "\n";
+  os << indent << "FirmwareFile: " << this->FirmwareFile << "\n";
+  os << indent << "FirmwareProgress: " << this->FirmwareProgress << "\n";
+  os << indent << "OpenOnArrival: " << (this->OpenOnArrival ? "on" : "off") << "\n";
+  os << indent << "TorqueScale: " << this->TorqueScale << " 1/(N m)\n";
+  os << indent << "Leds: " << this->Leds << "\n";
+  os << indent << "RealTimePriority: " << (this->RealTime ? "yes" : "no") << "\n";
+  os << indent << "NumberOfExchanges: " << this->GetNumberOfExchanges() << "\n";
+  os << indent << "NumberOfMissedReplies: " << this->GetNumberOfMissedReplies() << "\n";
+  os << indent << "NumberOfMalformedPackets: " << this->GetNumberOfMalformedPackets() << "\n";
+  os << indent << "NumberOfLateCommands: " << this->GetNumberOfLateCommands() << "\n";
+}

@@ -1,0 +1,149 @@
+/**
+ * @class   vtkFalconHapticDevice
+ * @brief   a Novint Falcon on the USB
+ *
+ * Open() begins to bring the device up and returns at once; a thread of its own does the rest. Call
+ * Update() now and then (vtkHapticServo and vtkHapticScene do), until the state is Ready or
+ * Faulted; GetStatusMessage() tells people what goes on and what they are to do:
+ *
+ *     Closed -> Opening -> LoadingFirmware -> Homing -> Ready -> Faulted, Closed
+ *
+ * The firmware is not part of this software; it is loaded from FirmwareFile where the device has
+ * none loaded, which is so whenever its power was off. Homing needs a hand: pull the grip all the
+ * way out, then push it all the way in. No force is asked for before that is done.
+ *
+ * The device frame is that of the kinematics: z points out of the device to the user and is 0.15 m
+ * where its makers put the origin; see haptics::FalconKinematics. Buttons 0 to 3 are plus, forward,
+ * centre and minus.
+ *
+ * Torques are in units that nobody has documented: calibrate TorqueScale before trusting a force,
+ * see Devices/README.md, which also lists every fault, what the device gets and what the user
+ * reads.
+ *
+ * The last that the device gets is zero force: on Close(), destruction and every fault that leaves
+ * it able to listen.
+ *
+ * @sa vtkHapticDevice vtkHapticServo
+ */
+#ifndef vtkFalconHapticDevice_h
+#define vtkFalconHapticDevice_h
+
+#include "vtkHapticDevice.h"
+
+#include <memory>
+#include <string>
+
+namespace haptics
+{
+class FalconChannel;
+class FalconTransport;
+struct FalconLink;
+struct FalconStatus;
+}
+
+class VTKHAPTICSDEVICES_EXPORT vtkFalconHapticDevice : public vtkHapticDevice
+{
+public:
+  static vtkFalconHapticDevice* New();
+  vtkTypeMacro(vtkFalconHapticDevice, vtkHapticDevice);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /// All from Update(). ProgressEvent carries the share of the firmware sent, a double* 0 to 1.
+  enum FalconEvents
+  {
+    StatusMessageChangedEvent = vtkCommand::UserEvent + 4110, ///< no call data
+    DeviceArrivedEvent                                        ///< a Falcon was plugged in
+  };
+
+  /// Lamps, for SetLeds().
+  enum Led
+  {
+    GreenLed = 1,
+    BlueLed = 2,
+    RedLed = 4
+  };
+
+  /**
+   * Begin to bring the device up. True where it is ready already; else false, and Update() tells
+   * how it goes. Does nothing while it is under way.
+   */
+  bool Open() override;
+  /// Let go of the device, at any time. Does not wait for it.
+  void Close() override;
+  void Update() override;
+  const char* GetStatusMessage() const override;
+
+  ///@{
+  /// Which of the Falcons plugged in, counted from 0 by bus and port. Default 0, up to 15. Read by
+  /// Open().
+  vtkSetClampMacro(DeviceIndex, int, 0, 15);
+  vtkGetMacro(DeviceIndex, int);
+  ///@}
+  ///@{
+  /// The path of the firmware image; empty by default. Read when it is needed, while opening.
+  void SetFirmwareFile(const char* path);
+  const char* GetFirmwareFile() const { return this->FirmwareFile.c_str(); }
+  ///@}
+  ///@{
+  /// Bring the device up again by itself whenever a Falcon is plugged in after a fault. Default
+  /// off. Read by Open().
+  vtkSetMacro(OpenOnArrival, bool);
+  vtkGetMacro(OpenOnArrival, bool);
+  vtkBooleanMacro(OpenOnArrival, bool);
+  ///@}
+  ///@{
+  /**
+   * Motor units for a torque of 1 N m [1/(N m)], the sign telling which way the motors turn.
+   * Default -3500; from 100 to 20,000 in magnitude, else an error and no change. Taken when the
+   * device becomes ready.
+   */
+  void SetTorqueScale(double scale);
+  vtkGetMacro(TorqueScale, double);
+  ///@}
+  ///@{
+  /// What lights while the device is ready, bits of Led. Default GreenLed. Red lights while homing.
+  void SetLeds(int leds);
+  vtkGetMacro(Leds, int);
+  ///@}
+
+  /// Share of the firmware sent in this upload, 0 to 1.
+  double GetFirmwareProgress() const { return this->FirmwareProgress; }
+  ///@{
+  /// Since the device was opened: packets exchanged; replies that did not come in time, after which
+  /// the next packet asked for no torque; packets that were none; torques withdrawn because the
+  /// servo was silent for 20 ms.
+  vtkTypeInt64 GetNumberOfExchanges() const;
+  vtkTypeInt64 GetNumberOfMissedReplies() const;
+  vtkTypeInt64 GetNumberOfMalformedPackets() const;
+  vtkTypeInt64 GetNumberOfLateCommands() const;
+  ///@}
+
+protected:
+  vtkFalconHapticDevice();
+  ~vtkFalconHapticDevice() override;
+
+private:
+  vtkFalconHapticDevice(const vtkFalconHapticDevice&) = delete;
+  void operator=(const vtkFalconHapticDevice&) = delete;
+
+  void Follow(const haptics::FalconStatus& status);
+  void TellProgress(const haptics::FalconStatus& status);
+  void LetGo();
+
+  int DeviceIndex = 0;
+  std::string FirmwareFile;
+  bool OpenOnArrival = false;
+  double TorqueScale = -3500.0;
+  int Leds = GreenLed;
+
+  std::unique_ptr<haptics::FalconTransport> Transport;
+  std::unique_ptr<haptics::FalconTransport> Ending; // asked to stop; joined before the next begins
+  std::shared_ptr<haptics::FalconLink> Link;
+  std::shared_ptr<haptics::FalconChannel> Falcon;
+  std::string StatusMessage;
+  double FirmwareProgress = 0.0;
+  unsigned int Arrivals = 0;
+  bool RealTime = false;
+};
+
+#endif

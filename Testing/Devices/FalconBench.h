@@ -1,0 +1,128 @@
+#ifndef FalconBench_h
+#define FalconBench_h
+
+#include "DeviceChannel.h"
+#include "UsbFs.h"
+#include "vtkFalconHapticDevice.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkNew.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+/// @brief A VTK device and the script that it meets, for tests.
+class FalconBench : public testing::Test
+{
+protected:
+  FalconBench() { this->Watch(this->Device, this->Events); }
+
+  /// Notes states and errors of a device, and keeps errors from the test's output.
+  struct Log
+  {
+    std::vector<std::string> States;
+    std::vector<double> Progress;
+    int Arrivals = 0;
+    int Errors = 0;
+  };
+  void Watch(vtkFalconHapticDevice* device, Log& log)
+  {
+    vtkNew<vtkCallbackCommand> command;
+    command->SetClientData(&log);
+    command->SetCallback(
+      [](vtkObject* caller, unsigned long event, void* client, void* data)
+      {
+        auto* device = static_cast<vtkFalconHapticDevice*>(caller);
+        auto* log = static_cast<Log*>(client);
+        switch (event)
+        {
+          case vtkHapticDevice::StateChangedEvent:
+            log->States.emplace_back(device->GetStateAsString());
+            break;
+          case vtkFalconHapticDevice::DeviceArrivedEvent:
+            ++log->Arrivals;
+            break;
+          case vtkCommand::ProgressEvent:
+            log->Progress.push_back(*static_cast<double*>(data));
+            break;
+          case vtkCommand::ErrorEvent:
+            ++log->Errors;
+            break;
+          default:
+            break;
+        }
+      });
+    device->AddObserver(vtkCommand::AnyEvent, command);
+  }
+
+  /// Updates, and ticks as a servo would with this force [N], until `done` or 5 s are over.
+  template <typename Done>
+  bool Run(Done done, const std::array<double, 3>& force = {})
+  {
+    const auto end = FalconModel::Clock::now() + std::chrono::seconds(5);
+    while (FalconModel::Clock::now() < end)
+    {
+      this->Device->Update();
+      const auto channel = this->Device->GetChannel();
+      haptics::DeviceSample sample;
+      const double time =
+        std::chrono::duration<double>(FalconModel::Clock::now().time_since_epoch()).count();
+      if (channel && channel->Read(time, sample))
+      {
+        channel->Write(force);
+      }
+      if (done())
+      {
+        return true;
+      }
+      std::this_thread::sleep_for(std::chrono::microseconds(300));
+    }
+    return false;
+  }
+  bool RunUntil(int state, const std::array<double, 3>& force = {})
+  {
+    return this->Run([&] { return this->Device->GetState() == state; }, force);
+  }
+  ::testing::AssertionResult BecomesReady()
+  {
+    this->Device->Open();
+    return this->RunUntil(vtkHapticDevice::Ready) ? testing::AssertionSuccess()
+                                                  : testing::AssertionFailure()
+        << this->Device->GetStateAsString() << ": " << this->Device->GetStatusMessage();
+  }
+
+  /// What the device with a port number got.
+  haptics::FalconCommand LastCommand(int port = 1)
+  {
+    return this->Bus.With(port, [](FalconModel& model) { return model.Commands.back(); });
+  }
+  bool GotForce(int port = 1)
+  {
+    return this->Bus.With(port,
+      [](FalconModel& model)
+      {
+        for (const haptics::FalconCommand& command : model.Commands)
+        {
+          if (command.Torques != std::array<std::int16_t, 3>{})
+          {
+            return true;
+          }
+        }
+        return false;
+      });
+  }
+  bool EndsWithoutForce(int port = 1)
+  {
+    return this->LastCommand(port).Torques == std::array<std::int16_t, 3>{};
+  }
+
+  UsbFs Bus; // before libusb is used, and gone after it
+  vtkNew<vtkFalconHapticDevice> Device;
+  Log Events;
+};
+
+#endif

@@ -1,0 +1,133 @@
+#ifndef FalconModel_h
+#define FalconModel_h
+
+#include "FalconPacket.h"
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+/// Where in its life a scripted device does something unusual.
+enum class At
+{
+  Control, ///< the nth control transfer
+  Upload,  ///< the nth chunk of firmware
+  Probe,   ///< the nth packet before the device is homed
+  Serve    ///< the nth packet after it is homed
+};
+
+/// What it does there.
+enum class Do
+{
+  Stall,      ///< refuses the transfer; for packets, the read of the reply
+  StallWrite, ///< refuses the write, until the halt is cleared
+  IoError,    ///< breaks the transfer; for packets, the read of the reply
+  Overflow,   ///< sends more than was asked for
+  Silence,    ///< takes the bytes and says nothing
+  Split,      ///< answers in two reads
+  Late,       ///< answers 2 ms later
+  CutStatus,  ///< sends a read of one byte, shorter than the modem status
+  Garble,     ///< damages a byte of the answer
+  Chatter,    ///< puts rubbish before the answer
+  ForgetHome, ///< loses the origin
+  Unplug      ///< is pulled out, with the transfer pending
+};
+
+/// One line of a scripted device: from the nth on, so often.
+struct Act
+{
+  At Where;
+  int Nth;
+  Do What;
+  int Times = 1;
+};
+
+constexpr int Always = 1 << 30;
+
+/// @brief A Falcon as a table of what it does wrong, on top of what it does right.
+///
+/// The FTDI chip, the boot loader behind it and the firmware, with the hand that homes it. One
+/// thread at a time.
+struct FalconModel
+{
+  using Clock = std::chrono::steady_clock;
+
+  ///@{
+  /// Set before it is plugged in.
+  std::vector<Act> Script;
+  bool Loaded = true;              ///< whether the firmware runs
+  std::vector<std::uint8_t> Image; ///< the only firmware that it runs
+  int HomesAfter = 5;              ///< packets a leg; negative: nobody homes it
+  std::array<std::int16_t, 3> Encoders{ { 300, 310, 320 } };
+  std::uint8_t Buttons = 0;
+  ///@}
+
+  ///@{
+  /// What it saw.
+  std::vector<std::array<int, 2>> Controls;     ///< request, value
+  std::vector<haptics::FalconCommand> Commands; ///< every well-formed packet
+  std::vector<std::uint8_t> Firmware;           ///< of the last upload
+  int Uploads = 0;
+  int BadPackets = 0;
+  ///@}
+
+  struct Answer
+  {
+    int Status = 0; ///< negative errno
+    std::vector<std::uint8_t> Bytes;
+  };
+
+  /// A control transfer: 0 or a negative errno.
+  int Control(int request, int value);
+  /// Bytes written to it: 0 or a negative errno.
+  int Write(const std::uint8_t* bytes, std::size_t size);
+  /// What a read that has been waiting since `start` gets; nothing yet where it has to go on
+  /// waiting.
+  std::optional<Answer> Read(Clock::time_point start);
+  /// When a read that gets nothing now is to be tried again.
+  Clock::time_point NextTry(Clock::time_point start) const;
+  void ClearHalt() { this->Halted = false; }
+  bool TakesUnplug();
+
+private:
+  enum class Stage
+  {
+    Unknown,
+    Hello,  ///< the boot loader waits to be greeted
+    Start,  ///< and for the start of an upload
+    Upload, ///< and for its chunks
+    Run
+  };
+
+  const Act* Find(At where, int nth) const;
+  int Perform(const Act* act);
+  void Say(const std::vector<std::uint8_t>& bytes, const Act* act);
+  int WriteToLoader(const std::uint8_t* bytes, std::size_t size);
+  int TakePacket(const haptics::FalconPacket& packet);
+
+  Stage Now = Stage::Unknown;
+  int Baud = 0;
+  int Latency = 16;
+  bool Dtr = true;
+  bool Halted = false;
+  bool WantsUnplug = false;
+  int Chunks = 0;
+  int Probes = 0;
+  int Served = 0;
+  int HomingPackets = 0;
+  std::uint8_t Homed = 0;
+  std::vector<std::uint8_t> Incoming;
+  struct Reading
+  {
+    std::vector<std::uint8_t> Bytes;
+    Clock::time_point NotBefore;
+  };
+  std::deque<Reading> Outgoing;
+  std::deque<int> Failures; // of the next reads
+  bool CutNextStatus = false;
+};
+
+#endif

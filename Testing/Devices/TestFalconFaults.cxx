@@ -1,0 +1,342 @@
+#include "FalconBench.h"
+
+#include "FalconKinematics.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace
+{
+using FalconFaults = FalconBench;
+using Force = std::array<double, 3>;
+
+const Force Push{ 0.3, -0.2, 1.0 };
+
+bool Contains(const std::string& text, const std::string& part)
+{
+  return text.find(part) != std::string::npos;
+}
+
+/// Faults that end a session: what the device does, what it gets, and what the user reads.
+struct Fault
+{
+  const char* Name;
+  Act What;
+  bool Listens; ///< whether zero force can still reach it
+  const char* Message;
+};
+
+void PrintTo(const Fault& fault, std::ostream* os)
+{
+  *os << fault.Name;
+}
+
+class FalconFault
+  : public FalconBench
+  , public testing::WithParamInterface<Fault>
+{
+};
+
+TEST_P(FalconFault, EndsWithoutForceAndIsToldToTheUser)
+{
+  FalconModel model;
+  model.Script = { this->GetParam().What };
+  this->Bus.Plug(1, model);
+  ASSERT_TRUE(this->BecomesReady());
+  const auto channel = this->Device->GetChannel();
+  ASSERT_TRUE(this->RunUntil(vtkHapticDevice::Faulted, Push));
+  EXPECT_TRUE(Contains(this->Device->GetErrorMessage(), this->GetParam().Message))
+    << this->Device->GetErrorMessage();
+  EXPECT_EQ(this->Events.Errors, 1);
+  EXPECT_TRUE(this->GotForce());
+  if (this->GetParam().Listens)
+  {
+    EXPECT_TRUE(this->EndsWithoutForce());
+  }
+  haptics::DeviceSample sample;
+  EXPECT_FALSE(channel->Read(1e9, sample)) << "the servo must notice";
+  EXPECT_TRUE(this->Run([&] { return !this->Bus.IsClaimed(1); }));
+}
+
+// clang-format off
+const Fault Faults[] = {
+  { "Stall", { At::Serve, 50, Do::Stall }, true, "refused a USB transfer (stall) while exchanging" },
+  { "StallOfAWrite", { At::Serve, 50, Do::StallWrite }, true, "refused a USB transfer (stall) while exchanging" },
+  { "IoError", { At::Serve, 50, Do::IoError }, true, "(I/O error) while exchanging" },
+  { "Overflow", { At::Serve, 50, Do::Overflow }, true, "(overflow) while exchanging" },
+  { "SilenceForGood", { At::Serve, 50, Do::Silence, Always }, true, "did not answer 5 packets in a row" },
+  { "RubbishForGood", { At::Serve, 50, Do::Garble, Always }, true, "did not answer 5 packets in a row" },
+  { "LostOrigin", { At::Serve, 50, Do::ForgetHome }, true, "lost its origin" },
+  { "Unplugged", { At::Serve, 50, Do::Unplug }, false, "was unplugged while exchanging" },
+};
+// clang-format on
+
+INSTANTIATE_TEST_SUITE_P(All, FalconFault, testing::ValuesIn(Faults),
+  [](const testing::TestParamInfo<Fault>& info) { return std::string(info.param.Name); });
+
+/// Faults that a session survives.
+class FalconHiccup
+  : public FalconBench
+  , public testing::WithParamInterface<Fault>
+{
+};
+
+TEST_P(FalconHiccup, IsSurvived)
+{
+  FalconModel model;
+  model.Script = { this->GetParam().What };
+  this->Bus.Plug(1, model);
+  ASSERT_TRUE(this->BecomesReady());
+  ASSERT_TRUE(this->Run([&] { return this->Device->GetNumberOfExchanges() > 150; }, Push))
+    << this->Device->GetStatusMessage();
+  EXPECT_TRUE(this->Device->IsOpen()) << this->Device->GetErrorMessage();
+  EXPECT_EQ(this->Events.Errors, 0);
+  if (!this->GetParam().Listens)
+  {
+    EXPECT_GE(this->Device->GetNumberOfMissedReplies(), 1);
+    const bool paused = this->Bus.With(1,
+      [](FalconModel& model)
+      {
+        const auto& commands = model.Commands;
+        const auto pushes = [](const haptics::FalconCommand& c) { return c.Torques[2] != 0; };
+        const auto first = std::find_if(commands.begin(), commands.end(), pushes);
+        const auto pause = std::find_if_not(first, commands.end(), pushes);
+        return pause != commands.end() &&
+          std::find_if(pause, commands.end(), pushes) != commands.end();
+      });
+    EXPECT_TRUE(paused) << "a packet after a lost reply asks for no force, later ones do again";
+  }
+}
+
+// clang-format off
+const Fault Hiccups[] = {
+  { "SplitReplies", { At::Probe, 0, Do::Split, Always }, true, "" },
+  { "SplitRepliesWhileServing", { At::Serve, 0, Do::Split, Always }, true, "" },
+  { "RubbishBeforeReplies", { At::Serve, 0, Do::Chatter, 100 }, true, "" },
+  { "ReadsWithoutStatus", { At::Serve, 0, Do::CutStatus, 100 }, true, "" },
+  { "LateReplies", { At::Serve, 0, Do::Late, 100 }, true, "" },
+  { "ADamagedReply", { At::Serve, 60, Do::Garble }, false, "" },
+  { "ALostReply", { At::Serve, 60, Do::Silence }, false, "" },
+  { "FourLostReplies", { At::Serve, 60, Do::Silence, 4 }, false, "" },
+};
+// clang-format on
+
+INSTANTIATE_TEST_SUITE_P(All, FalconHiccup, testing::ValuesIn(Hiccups),
+  [](const testing::TestParamInfo<Fault>& info) { return std::string(info.param.Name); });
+
+TEST_F(FalconFaults, GivesThePositionOfTheEncodersAndTheButtons)
+{
+  FalconModel model;
+  const Force place{ 0.011, -0.017, 0.131 };
+  haptics::FalconKinematics::Vector angles{};
+  ASSERT_TRUE(haptics::FalconKinematics::Inverse(place, angles));
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    model.Encoders[i] = haptics::FalconKinematics::CountOfAngle(angles[i]);
+  }
+  model.Buttons = 9;
+  this->Bus.Plug(1, model);
+  ASSERT_TRUE(this->BecomesReady());
+  haptics::DeviceSample sample;
+  ASSERT_TRUE(this->Device->GetChannel()->Read(0.0, sample));
+  EXPECT_EQ(sample.Buttons, 9u);
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    EXPECT_NEAR(sample.Position[i], place[i], 60e-6) << "half a count at each leg";
+  }
+}
+
+TEST_F(FalconFaults, SendsTheTorquesOfTheForceByTheJacobian)
+{
+  const FalconModel model;
+  this->Bus.Plug(1, model);
+  this->Device->SetTorqueScale(-2000.0);
+  ASSERT_TRUE(this->BecomesReady());
+  using namespace haptics::FalconKinematics;
+  Vector angles{};
+  Vector place{};
+  Matrix jacobian{};
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    angles[i] = AngleOfCount(model.Encoders[i]);
+  }
+  ASSERT_TRUE(Forward(angles, place));
+  ASSERT_TRUE(Jacobian(place, angles, jacobian));
+  const Vector torques = Torques(jacobian, Push);
+  ASSERT_TRUE(this->Run([&] { return this->GotForce(); }, Push));
+  const haptics::FalconCommand last = this->LastCommand();
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    EXPECT_NEAR(last.Torques[i], -2000.0 * torques[i], 0.5 + 1e-9) << "rounded to a unit";
+  }
+}
+
+TEST_F(FalconFaults, SendsNoMoreThanTheLargestForce)
+{
+  this->Bus.Plug(1, FalconModel());
+  ASSERT_TRUE(this->BecomesReady());
+  const auto settle = [&](const Force& force)
+  {
+    const auto until = FalconModel::Clock::now() + std::chrono::milliseconds(15);
+    this->Run([&] { return FalconModel::Clock::now() > until; }, force);
+    return this->LastCommand().Torques;
+  };
+  EXPECT_EQ(settle({ 0.0, 0.0, 1e9 }), settle({ 0.0, 0.0, this->Device->GetMaximumForce() }));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(settle({ 0.0, nan, 1.0 }), (std::array<std::int16_t, 3>{}));
+}
+
+TEST_F(FalconFaults, WithdrawsAForceThatTheServoDoesNotRenew)
+{
+  this->Bus.Plug(1, FalconModel());
+  ASSERT_TRUE(this->BecomesReady());
+  ASSERT_TRUE(this->Run([&] { return this->GotForce(); }, Push));
+  // No tick from here on, as of a servo that hangs.
+  std::this_thread::sleep_for(std::chrono::milliseconds(60));
+  EXPECT_TRUE(this->EndsWithoutForce());
+  EXPECT_EQ(this->Device->GetNumberOfLateCommands(), 1);
+  EXPECT_TRUE(this->Device->IsOpen());
+}
+
+TEST_F(FalconFaults, EndsWithoutForceWhenClosedWhileItPushes)
+{
+  this->Bus.Plug(1, FalconModel());
+  ASSERT_TRUE(this->BecomesReady());
+  ASSERT_TRUE(this->Run([&] { return this->GotForce(); }, Push));
+  this->Device->Close();
+  ASSERT_TRUE(this->Run([&] { return !this->Bus.IsClaimed(1); }));
+  EXPECT_TRUE(this->EndsWithoutForce());
+  EXPECT_FALSE(this->Bus.IsDriverDetached()) << "the kernel's driver gets its device back";
+  EXPECT_EQ(this->Events.Errors, 0);
+  EXPECT_TRUE(this->BecomesReady()) << "and opens again";
+}
+
+TEST_F(FalconFaults, EndsWithoutForceWhenTheObjectIsDestroyedWhileItPushes)
+{
+  this->Bus.Plug(1, FalconModel());
+  auto* device = vtkFalconHapticDevice::New();
+  device->Open();
+  ASSERT_TRUE(this->Run(
+    [&]
+    {
+      device->Update();
+      return device->IsOpen();
+    }))
+    << device->GetStatusMessage();
+  const auto channel = device->GetChannel();
+  haptics::DeviceSample sample;
+  ASSERT_TRUE(this->Run(
+    [&]
+    {
+      if (channel->Read(0.0, sample))
+      {
+        channel->Write(Push);
+      }
+      return this->GotForce();
+    }));
+  device->Delete();
+  EXPECT_TRUE(this->EndsWithoutForce());
+  EXPECT_FALSE(channel->Read(0.1, sample)) << "a channel may outlive its device";
+  channel->Write(Push);
+  EXPECT_TRUE(this->EndsWithoutForce());
+}
+
+TEST_F(FalconFaults, IsOpenedAgainByHandAfterItWasPulledOutAndPluggedIn)
+{
+  this->Bus.Plug(1, FalconModel());
+  ASSERT_TRUE(this->BecomesReady());
+  this->Bus.Unplug(1);
+  ASSERT_TRUE(this->RunUntil(vtkHapticDevice::Faulted, Push));
+  const int arrivals = this->Events.Arrivals;
+  this->Bus.Plug(1, FalconModel());
+  ASSERT_TRUE(this->Run([&] { return this->Events.Arrivals > arrivals; })) << "is told";
+  EXPECT_EQ(this->Device->GetState(), vtkHapticDevice::Faulted) << "but nothing moves by itself";
+  EXPECT_TRUE(this->BecomesReady());
+}
+
+TEST_F(FalconFaults, IsOpenedByItselfOnArrivalWhereAskedTo)
+{
+  this->Device->OpenOnArrivalOn();
+  this->Device->Open();
+  ASSERT_TRUE(this->RunUntil(vtkHapticDevice::Faulted));
+  this->Bus.Plug(1, FalconModel());
+  ASSERT_TRUE(this->RunUntil(vtkHapticDevice::Ready)) << this->Device->GetStatusMessage();
+  const auto first = this->Device->GetChannel();
+  ASSERT_TRUE(this->Run([&] { return this->GotForce(); }, Push));
+  this->Bus.Unplug(1);
+  ASSERT_TRUE(this->RunUntil(vtkHapticDevice::Faulted, Push));
+  this->Bus.Plug(1, FalconModel());
+  ASSERT_TRUE(this->RunUntil(vtkHapticDevice::Ready)) << this->Device->GetStatusMessage();
+  EXPECT_NE(this->Device->GetChannel(), first);
+  first->Write(Push);
+  std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_FALSE(this->GotForce()) << "the servo of the last session must not push in this one";
+  EXPECT_STREQ(this->Device->GetErrorMessage(), "");
+}
+
+TEST_F(FalconFaults, RefusesTorqueScalesOutOfRange)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double scale : { 0.0, 99.0, -20001.0, nan })
+  {
+    this->Device->SetTorqueScale(scale);
+    EXPECT_EQ(this->Device->GetTorqueScale(), -3500.0);
+  }
+  EXPECT_EQ(this->Events.Errors, 4);
+}
+
+TEST_F(FalconFaults, PrintsAllThatItKnows)
+{
+  this->Bus.Plug(1, FalconModel());
+  ASSERT_TRUE(this->BecomesReady());
+  std::ostringstream text;
+  this->Device->Print(text);
+  for (const char* const part : { "State: Ready", "StatusMessage: The Falcon is ready.",
+         "TorqueScale: -3500 1/(N m)", "NumberOfExchanges: ", "RealTimePriority: " })
+  {
+    EXPECT_TRUE(Contains(text.str(), part)) << part;
+  }
+}
+
+// The rate is the device's: 1 kHz whatever the servo's thread does.
+TEST_F(FalconFaults, ExchangesAThousandPacketsASecondWithAServoThread)
+{
+  this->Bus.Plug(1, FalconModel());
+  ASSERT_TRUE(this->BecomesReady());
+  std::atomic<bool> stop{ false };
+  std::atomic<int> lost{ 0 };
+  const auto channel = this->Device->GetChannel();
+  std::thread servo(
+    [&]
+    {
+      const auto start = FalconModel::Clock::now();
+      for (int tick = 0; !stop; ++tick)
+      {
+        haptics::DeviceSample sample;
+        if (!channel->Read(tick * 1e-3, sample))
+        {
+          ++lost;
+          return;
+        }
+        channel->Write(Push);
+        std::this_thread::sleep_until(start + std::chrono::milliseconds(tick + 1));
+      }
+    });
+  const vtkTypeInt64 before = this->Device->GetNumberOfExchanges();
+  const auto start = FalconModel::Clock::now();
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  this->Device->Update();
+  const vtkTypeInt64 exchanges = this->Device->GetNumberOfExchanges() - before;
+  const double duration = std::chrono::duration<double>(FalconModel::Clock::now() - start).count();
+  stop = true;
+  servo.join();
+  EXPECT_EQ(lost, 0);
+  this->RecordProperty("exchanges_per_second", static_cast<int>(exchanges / duration));
+  EXPECT_LT(exchanges / duration, 1020.0) << "never faster than 1 kHz";
+  EXPECT_GT(exchanges / duration, 500.0) << "half of 1 kHz, on however busy a machine";
+  EXPECT_EQ(this->Device->GetNumberOfMissedReplies(), 0);
+}
+}
