@@ -13,6 +13,7 @@ namespace
 // The transport gives up first where the device is silent; this is for a transport that gets no
 // time.
 constexpr double LongestSilence = 0.15; // [s]
+constexpr std::uint64_t NanosecondsInSecond = 1000000000;
 }
 
 FalconChannel::FalconChannel(
@@ -46,7 +47,9 @@ bool FalconChannel::ReadDevice(double time, DeviceSample& sample) noexcept
   {
     return false;
   }
-  if (this->Link->Answers.Update() || time < this->Answered)
+  const bool answered = this->Link->Answers.Update() || this->TookAnswer;
+  this->TookAnswer = false;
+  if (answered || time < this->Answered)
   {
     this->Answered = time; // a smaller time: the servo was started anew
   }
@@ -84,6 +87,31 @@ void FalconChannel::WriteDevice(const std::array<double, 3>& force) noexcept
   {
     torque *= share * this->TorqueScale;
   }
-  this->Link->Torques.Publish(torques); // not finite becomes zero where they are sent
+  // What is not finite becomes zero where it is sent.
+  this->Link->Demands.Publish({ torques, this->Link->Halts.load(std::memory_order_acquire) });
+}
+
+void FalconChannel::HaltDevice() noexcept
+{
+  this->Link->Halts.fetch_add(1, std::memory_order_acq_rel);
+}
+
+bool FalconChannel::WaitForSample(std::uint64_t timeout) noexcept
+{
+  timespec deadline{};
+  clock_gettime(CLOCK_MONOTONIC, &deadline);
+  const std::uint64_t nanoseconds = static_cast<std::uint64_t>(deadline.tv_nsec) + timeout;
+  deadline.tv_sec += static_cast<std::time_t>(nanoseconds / NanosecondsInSecond);
+  deadline.tv_nsec = static_cast<long>(nanoseconds % NanosecondsInSecond);
+  // The bell rang for answers that were read long ago, too.
+  while (!this->TookAnswer)
+  {
+    this->TookAnswer = this->Link->Answers.Update();
+    if (!this->TookAnswer && !this->Link->Bell.WaitUntil(deadline))
+    {
+      return false;
+    }
+  }
+  return true;
 }
 }

@@ -23,6 +23,9 @@ public:
   FalconChannel(std::shared_ptr<FalconLink> link, double torqueScale, double maximumForce);
   ~FalconChannel() override;
 
+  bool SetsPace() const noexcept override { return true; }
+  bool WaitForSample(std::uint64_t timeout) noexcept override;
+
   /// Why Read() returned false, for people; empty where it did not or where the transport knows
   /// better. Any thread.
   const char* GetProblem() const noexcept;
@@ -30,6 +33,7 @@ public:
 protected:
   bool ReadDevice(double time, DeviceSample& sample) noexcept override;
   void WriteDevice(const std::array<double, 3>& force) noexcept override;
+  void HaltDevice() noexcept override;
 
 private:
   enum class Problem
@@ -45,7 +49,8 @@ private:
   std::atomic<Problem> Trouble{ Problem::None };
 
   // The servo thread's own.
-  double Answered = 0.0; // when the last new answer was read [s]
+  bool TookAnswer = false; // by WaitForSample()
+  double Answered = 0.0;   // when the last new answer was read [s]
   FalconKinematics::Vector Angles{};
   FalconKinematics::Vector Position{};
 };

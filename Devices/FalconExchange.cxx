@@ -147,9 +147,10 @@ void FalconExchange::Serve(double commandTimeout, const std::function<void()>& r
   {
     this->Usb.CheckStop();
     const std::int64_t start = Now();
-    if (this->Link.Torques.Update())
+    const std::uint64_t halts = this->Link.Halts.load(std::memory_order_acquire);
+    if (this->Link.Demands.Update())
     {
-      command.Torques = ClampTorques(this->Link.Torques.Get());
+      command.Torques = ClampTorques(this->Link.Demands.Get().Torques);
       renewed = start;
       withdrawn = false;
     }
@@ -158,6 +159,10 @@ void FalconExchange::Serve(double commandTimeout, const std::function<void()>& r
       command.Torques = {};
       withdrawn = true;
       this->Link.LateCommands.fetch_add(1, std::memory_order_relaxed);
+    }
+    if (this->Link.Demands.Get().Halts != halts)
+    {
+      command.Torques = {};
     }
     command.Leds = this->Link.Leds.load(std::memory_order_relaxed);
 
@@ -168,6 +173,7 @@ void FalconExchange::Serve(double commandTimeout, const std::function<void()>& r
                         "Check its power supply, then open and home it again.");
     }
     this->Link.Answers.Publish({ reply, static_cast<double>(Now() - start) * 1e-9 });
+    this->Link.Bell.Ring();
     if (!this->Link.Up.exchange(true, std::memory_order_acq_rel))
     {
       ready();

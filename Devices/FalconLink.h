@@ -4,12 +4,41 @@
 #include "FalconPacket.h"
 #include "LatestValue.h"
 
+#include <semaphore.h>
+
 #include <array>
 #include <atomic>
+#include <cerrno>
 #include <cstdint>
+#include <ctime>
 
 namespace haptics
 {
+/// @brief Wakes one thread that sleeps; ringing never waits.
+class AnswerBell
+{
+public:
+  AnswerBell() { sem_init(&this->Semaphore, 0, 0); }
+  ~AnswerBell() { sem_destroy(&this->Semaphore); }
+  AnswerBell(const AnswerBell&) = delete;
+  AnswerBell& operator=(const AnswerBell&) = delete;
+
+  void Ring() noexcept { sem_post(&this->Semaphore); }
+  /// False where it did not ring until the monotonic clock shows `deadline`. Takes one ring.
+  bool WaitUntil(const timespec& deadline) noexcept
+  {
+    int result = 0;
+    do
+    {
+      result = sem_clockwait(&this->Semaphore, CLOCK_MONOTONIC, &deadline);
+    } while (result != 0 && errno == EINTR);
+    return result == 0;
+  }
+
+private:
+  sem_t Semaphore;
+};
+
 /// What the device answered last.
 struct FalconAnswer
 {
@@ -17,13 +46,24 @@ struct FalconAnswer
   double Duration = 0.0; ///< of the exchange [s]
 };
 
+/// What the servo asks for.
+struct FalconDemand
+{
+  std::array<double, 3> Torques{}; ///< motor units of any size; what is sent is clamped
+  std::uint64_t Halts = 0;         ///< those that the servo knew of
+};
+
 /// @brief What goes wait-free between the servo thread and the thread that talks to one Falcon.
 struct FalconLink
 {
   /// To the servo: one at a time, newest wins.
   LatestValue<FalconAnswer> Answers;
-  /// From the servo: torques in motor units, of any size; what is sent is clamped.
-  LatestValue<std::array<double, 3>> Torques;
+  /// From the servo.
+  LatestValue<FalconDemand> Demands;
+  /// How often a watchdog let go of all force: what was asked for before does not count any more.
+  std::atomic<std::uint64_t> Halts{ 0 };
+  /// Posted with every answer.
+  AnswerBell Bell;
   /// True while the device is homed and answers.
   std::atomic<bool> Up{ false };
   /// What lights while the device is ready, bits of FalconLed. From the GUI.

@@ -43,6 +43,7 @@ vtkFalconHapticDevice::vtkFalconHapticDevice()
 {
   this->MaximumForce = 8.0;
   this->MaximumStiffness = 800.0; // up to 3000 was seen in the best case
+  this->Latency = 0.002; // up to a millisecond until the next exchange, and as much on the bus
   this->NumberOfButtons = 4;
   const double bounds[6] = { -0.03, 0.03, -0.03, 0.03, 0.095, 0.155 };
   std::copy(bounds, bounds + 6, this->WorkspaceBounds);

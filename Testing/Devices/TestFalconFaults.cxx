@@ -201,6 +201,56 @@ TEST_F(FalconFaults, WithdrawsAForceThatTheServoDoesNotRenew)
   EXPECT_TRUE(this->Device->IsOpen());
 }
 
+TEST_F(FalconFaults, LetsGoAtOnceWhenAWatchdogHaltsIt)
+{
+  this->Bus.Plug(1, FalconModel());
+  ASSERT_TRUE(this->BecomesReady());
+  ASSERT_TRUE(this->Run([&] { return this->GotForce(); }, Push));
+  const auto channel = this->Device->GetChannel();
+  channel->Halt();
+  const vtkTypeInt64 before = this->Device->GetNumberOfExchanges();
+  while (this->Device->GetNumberOfExchanges() < before + 2)
+  {
+    std::this_thread::yield();
+  }
+  EXPECT_TRUE(this->EndsWithoutForce()) << "no tick came since";
+  const auto count = [&]
+  { return this->Bus.With(1, [](FalconModel& model) { return model.Commands.size(); }); };
+  std::size_t commands = count();
+  ASSERT_TRUE(this->Run([&] { return count() > commands + 10; }, Push));
+  EXPECT_TRUE(this->EndsWithoutForce()) << "ticks do not count before the servo resumes";
+  channel->Resume();
+  commands = count();
+  ASSERT_TRUE(this->Run([&] { return count() > commands + 10; }, Push));
+  EXPECT_FALSE(this->EndsWithoutForce());
+}
+
+TEST_F(FalconFaults, SetsThePaceOfTheServo)
+{
+  this->Bus.Plug(1, FalconModel());
+  ASSERT_TRUE(this->BecomesReady());
+  const auto channel = this->Device->GetChannel();
+  ASSERT_TRUE(channel->SetsPace());
+  haptics::DeviceSample sample;
+  const auto start = FalconModel::Clock::now();
+  constexpr int ticks = 100;
+  for (int tick = 0; tick < ticks; ++tick)
+  {
+    ASSERT_TRUE(channel->WaitForSample(1000000000)) << tick;
+    ASSERT_TRUE(channel->Read(tick * 1e-3, sample));
+  }
+  // The first may be waiting already, and one may come late and the next in time.
+  EXPECT_GE(FalconModel::Clock::now() - start, std::chrono::milliseconds(ticks - 3));
+  this->Bus.With(1,
+    [](FalconModel& model) {
+      model.Script = { { At::Serve, 0, Do::Silence, Always } };
+    });
+  while (channel->WaitForSample(30000000))
+  {
+  }
+  SUCCEED() << "and stops waiting when nothing comes";
+}
+
 TEST_F(FalconFaults, EndsWithoutForceWhenClosedWhileItPushes)
 {
   this->Bus.Plug(1, FalconModel());

@@ -125,6 +125,8 @@ void UsbFs::Plug(int port, const FalconModel& model)
     this->Devices.push_front(std::move(device));
     this->Gate(this->Devices.front());
   }
+  // It is announced before its node is the pty.
+  const std::lock_guard<std::mutex> plugging(this->Plugging);
   Require(umockdev_testbed_add_from_string(this->Bed, description.c_str(), nullptr), "plugging in");
   char* root = umockdev_testbed_get_root_dir(this->Bed);
   const std::string link = std::string(root) + "/dev/" + node;
@@ -182,6 +184,7 @@ void UsbFs::ClaimByOther(bool claimed)
 
 bool UsbFs::DeniesOpening()
 {
+  const std::lock_guard<std::mutex> plugging(this->Plugging);
   const std::lock_guard<std::mutex> lock(this->Mutex);
   return this->OpeningDenied;
 }

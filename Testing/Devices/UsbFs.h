@@ -47,6 +47,7 @@ public:
   /// What the system denies: opening the node, claiming the interface. At first nothing.
   void DenyOpening(bool deny);
   void ClaimByOther(bool claimed);
+  /// For our open(): waits until what is being plugged in is wholly there.
   bool DeniesOpening();
   ///@}
   /// True while the kernel's driver, there at first, is detached.
@@ -87,6 +88,7 @@ private:
   void RunTimer();
   std::string PathOf(const Device& device) const;
 
+  std::mutex Plugging; // before Mutex
   std::mutex Mutex;
   std::condition_variable Wake;
   UMockdevTestbed* Bed;
