@@ -57,6 +57,7 @@ void Accuracy::Add(const Vec3& hip, const Vec3& godObject, const Vec3& oracle)
   const double scale = Length(force) * Length(right);
   const double cosine = scale > 0.0 ? Dot(force, right) / scale : -1.0;
   this->Direction.push_back(std::acos(std::clamp(cosine, -1.0, 1.0)) * 180.0 / M_PI);
+  this->Magnitude.push_back(std::abs(Length(force) / Length(right) - 1.0));
 }
 
 namespace
@@ -76,5 +77,10 @@ double Accuracy::PositionError(double quantile) const
 double Accuracy::DirectionError(double quantile) const
 {
   return Quantile(this->Direction, quantile);
+}
+
+double Accuracy::MagnitudeError(double quantile) const
+{
+  return Quantile(this->Magnitude, quantile);
 }
 }

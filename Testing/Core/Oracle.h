@@ -36,12 +36,13 @@ public:
   void Add(const Vec3& hip, const Vec3& godObject, const Vec3& oracle);
 
   std::size_t Size() const { return this->Position.size(); }
-  /// E_p [m] and E_theta [degrees] at a quantile: 0.5 median, 1 largest.
+  /// E_p [m], E_theta [degrees] and E_F (1: all of the force) at a quantile: 0.5 median, 1 largest.
   double PositionError(double quantile) const;
   double DirectionError(double quantile) const;
+  double MagnitudeError(double quantile) const;
 
 private:
-  std::vector<double> Position, Direction;
+  std::vector<double> Position, Direction, Magnitude;
 };
 }
 

@@ -73,10 +73,10 @@ TEST_P(AgainstOracle, StaysWithinATenthOfAMillimetreOnStrokes)
     }
     std::printf(
       "%-20s %-12s contact ticks %5zu   E_p p50 %8.4f p99 %8.4f max %8.4f mm   E_theta p99 "
-      "%6.3f max %6.3f deg\n",
+      "%6.3f max %6.3f deg   E_F p99 %.4f\n",
       scene.Name, HipPath::NameOf(GetParam()), accuracy.Size(), 1e3 * accuracy.PositionError(0.5),
       1e3 * accuracy.PositionError(0.99), 1e3 * accuracy.PositionError(1.0),
-      accuracy.DirectionError(0.99), accuracy.DirectionError(1.0));
+      accuracy.DirectionError(0.99), accuracy.DirectionError(1.0), accuracy.MagnitudeError(0.99));
     if (GetParam() == HipPath::Plunge)
     {
       // At 5 mm a tick and half a radius deep, several facets of a sphere of 1.2 mm facets each
@@ -89,6 +89,8 @@ TEST_P(AgainstOracle, StaysWithinATenthOfAMillimetreOnStrokes)
       EXPECT_LE(accuracy.PositionError(1.0), 0.1e-3) << scene.Name;
     }
     EXPECT_LE(accuracy.DirectionError(0.99), 3.0) << scene.Name;
+    // A twentieth is the least that a hand can tell.
+    EXPECT_LE(accuracy.MagnitudeError(0.99), 0.05) << scene.Name;
   }
 }
 
