@@ -44,7 +44,8 @@ TriangleMesh MakeMesh(FuzzInput& input)
   const int corners = numberOfPoints + (input.Byte() == 0 ? 1 : 0);
   for (int i = 0; i < numberOfTriangles && corners > 0; ++i)
   {
-    mesh.Triangles.push_back({ input.Choice(corners), input.Choice(corners), input.Choice(corners) });
+    mesh.Triangles.push_back(
+      { input.Choice(corners), input.Choice(corners), input.Choice(corners) });
   }
   return mesh;
 }
@@ -130,7 +131,8 @@ public:
     const Vec3 force = ForceModel().Force(contact.Displacement);
     Require(IsFinite(force), "the force is finite");
     Require(Length(force) <= ForceModel().MaximumForce * (1.0 + 1e-12), "the force is limited");
-    Require(contact.NumberOfConstraints >= 0 && contact.NumberOfConstraints <= 3, "0 to 3 constraints");
+    Require(
+      contact.NumberOfConstraints >= 0 && contact.NumberOfConstraints <= 3, "0 to 3 constraints");
     for (int i = 0; i < contact.NumberOfConstraints; ++i)
     {
       const Constraint& constraint = contact.Constraints[i];

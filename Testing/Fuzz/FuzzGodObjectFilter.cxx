@@ -164,13 +164,15 @@ void CheckOutput(vtkPolyData* input, vtkGodObjectFilter* filter, int errors)
     output->GetPoint(i, x);
     Require(std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]), "points are finite");
   }
-  const auto checkIds = [](vtkDataSetAttributes* data, const char* name, vtkIdType size, vtkIdType below)
+  const auto checkIds =
+    [](vtkDataSetAttributes* data, const char* name, vtkIdType size, vtkIdType below)
   {
     auto* const ids = vtkIdTypeArray::SafeDownCast(data->GetAbstractArray(name));
     Require(ids && ids->GetNumberOfValues() == size, "one original id each");
     for (vtkIdType i = 0; i < size; ++i)
     {
-      Require(ids->GetValue(i) >= 0 && ids->GetValue(i) < below, "original ids are those of the input");
+      Require(
+        ids->GetValue(i) >= 0 && ids->GetValue(i) < below, "original ids are those of the input");
     }
   };
   checkIds(output->GetPointData(), "OriginalPointId", points, input->GetNumberOfPoints());

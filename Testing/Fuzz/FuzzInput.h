@@ -28,7 +28,10 @@ public:
   /// Mostly small multiples of 1/4, which make points meet, lines touch and facets coincide; now
   /// and then the neighbour of one, a far or a tiny number.
   double Coordinate();
-  std::array<double, 3> Place() { return { this->Coordinate(), this->Coordinate(), this->Coordinate() }; }
+  std::array<double, 3> Place()
+  {
+    return { this->Coordinate(), this->Coordinate(), this->Coordinate() };
+  }
 
 private:
   const std::uint8_t* Next;
