@@ -2,6 +2,7 @@
 
 #include "LatestValue.h"
 #include "MonitoredChannel.h"
+#include "SimulatedBody.h"
 #include "SimulatedPath.h"
 #include "SplinePath.h"
 #include "StrokePattern.h"
@@ -19,13 +20,16 @@
 #include <utility>
 #include <vector>
 
-/// The servo thread's end: a table of positions, or the point that the GUI thread set last.
+/// The servo thread's end. The motion is a table of positions, or the point that the GUI thread set
+/// last; the hand is there, or pulls a body there.
 class vtkSimulatedHapticDevice::SimulatedChannel : public haptics::MonitoredChannel
 {
 public:
-  SimulatedChannel(bool led, haptics::SimulatedPath path, const haptics::DeviceSample& hand)
+  SimulatedChannel(bool led, haptics::SimulatedPath path, const haptics::DeviceSample& hand,
+    std::unique_ptr<haptics::SimulatedBody> body)
     : Led(led)
     , Path(std::move(path))
+    , Body(std::move(body))
     , Hand(hand)
   {
   }
@@ -43,15 +47,34 @@ protected:
     {
       sample.Position = this->Path.At(time);
     }
+    if (this->Body)
+    {
+      // A servo's time starts anew at each start; so does the body.
+      if (!this->IsPlaced || time < this->Body->GetTime())
+      {
+        this->Body->Place(time, sample.Position);
+        this->IsPlaced = true;
+      }
+      this->Body->Advance(time, sample.Position);
+      sample.Position = this->Body->GetMeasuredPosition();
+    }
     return true;
   }
 
-  // The hand is held by the motion: MonitoredChannel keeps the force, and nothing moves.
-  void WriteDevice(const std::array<double, 3>&) noexcept override {}
+  // Without a body the hand is held by the motion: MonitoredChannel keeps the force, nothing moves.
+  void WriteDevice(const std::array<double, 3>& force) noexcept override
+  {
+    if (this->Body)
+    {
+      this->Body->Ask(force);
+    }
+  }
 
 private:
   const bool Led;
   const haptics::SimulatedPath Path;
+  const std::unique_ptr<haptics::SimulatedBody> Body; // null: the hand is as stiff as one likes
+  bool IsPlaced = false;
   haptics::LatestValue<haptics::DeviceSample> Hand;
 };
 
@@ -140,10 +163,59 @@ bool vtkSimulatedHapticDevice::Open()
     this->Fail(Closed, error);
     return false;
   }
+  std::unique_ptr<haptics::SimulatedBody> body;
+  if (this->Body)
+  {
+    body = std::make_unique<haptics::SimulatedBody>(haptics::BodyParameters{ this->Mass,
+      this->Damping, this->CoulombFriction, this->EncoderResolution, this->MaximumForce,
+      this->Delay, this->Jitter, this->HandStiffness, this->HandDamping });
+  }
+  this->Latency = this->Body ? this->Delay + this->Jitter : 0.0;
   this->Simulated = std::make_shared<SimulatedChannel>(this->Motion == Manual, std::move(path),
-    haptics::DeviceSample{ this->ManualPosition, this->ManualButtons });
+    haptics::DeviceSample{ this->ManualPosition, this->ManualButtons }, std::move(body));
   this->BecomeReady(this->Simulated);
   return true;
+}
+
+void vtkSimulatedHapticDevice::SetPreset(int preset)
+{
+  struct Numbers
+  {
+    double MaximumForce;     // [N]
+    double MaximumStiffness; // [N/m]
+    double Mass;             // [kg]
+    double Coulomb;          // [N]
+    double Encoder;          // [m]
+    double HalfWorkspace[3]; // [m]
+    int Buttons;
+  };
+  // Sources: see SetPreset() in the header.
+  static const Numbers presets[] = {
+    { 3.3, 400.0, 0.045, 0.26, 55e-6, { 0.080, 0.060, 0.035 }, 2 },
+    { 3.3, 700.0, 0.045, 0.26, 55e-6, { 0.080, 0.060, 0.035 }, 2 },
+    { 8.5, 800.0, 0.075, 0.04, 30e-6, { 0.1905, 0.1335, 0.0955 }, 1 },
+    { 8.0, 3000.0, 0.25, 0.5, 63.5e-6, { 0.0508, 0.0508, 0.0508 }, 4 },
+  };
+  if (preset < Touch || preset > Falcon)
+  {
+    vtkErrorMacro("There is no preset " << preset << "; give Touch, Omni, Premium or Falcon (0 to "
+                                        << Falcon << "). Nothing has changed.");
+    return;
+  }
+  const Numbers& numbers = presets[preset];
+  constexpr double ServoPeriod = 0.001; // [s]
+  this->Body = true;
+  this->MaximumForce = numbers.MaximumForce;
+  this->MaximumStiffness = numbers.MaximumStiffness;
+  this->Damping = 0.5 * numbers.MaximumStiffness * ServoPeriod;
+  this->Mass = numbers.Mass;
+  this->CoulombFriction = numbers.Coulomb;
+  this->EncoderResolution = numbers.Encoder;
+  const double* half = numbers.HalfWorkspace;
+  const double bounds[6] = { -half[0], half[0], -half[1], half[1], -half[2], half[2] };
+  std::copy(bounds, bounds + 6, this->WorkspaceBounds);
+  this->NumberOfButtons = numbers.Buttons;
+  this->Modified();
 }
 
 void vtkSimulatedHapticDevice::Close()
@@ -259,6 +331,14 @@ void vtkSimulatedHapticDevice::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "PressDepth: " << this->PressDepth << " m\n";
   os << indent << "StrokeClearance: " << this->StrokeClearance << " m\n";
   os << indent << "StrokeInset: " << this->StrokeInset << "\n";
+  os << indent << "Body: " << (this->Body ? "on" : "off") << "\n";
+  os << indent << "Mass: " << this->Mass << " kg\n";
+  os << indent << "CoulombFriction: " << this->CoulombFriction << " N\n";
+  os << indent << "EncoderResolution: " << this->EncoderResolution << " m\n";
+  os << indent << "Delay: " << this->Delay << " s\n";
+  os << indent << "Jitter: " << this->Jitter << " s\n";
+  os << indent << "HandStiffness: " << this->HandStiffness << " N/m\n";
+  os << indent << "HandDamping: " << this->HandDamping << " N s/m\n";
   os << indent << "ManualPosition: (" << this->ManualPosition[0] << ", " << this->ManualPosition[1]
      << ", " << this->ManualPosition[2] << ") m\n";
   os << indent << "ManualButtons: " << this->ManualButtons << "\n";

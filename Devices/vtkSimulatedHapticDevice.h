@@ -2,9 +2,12 @@
  * @class   vtkSimulatedHapticDevice
  * @brief   a device without hardware: a hand that follows a path, strokes a box or is led by code
  *
- * It behaves as a device that opens at once and never fails. Its hand is as stiff as one likes: it
- * goes where the motion says, whatever the force; the force is kept and can be read back with
- * GetForce(). The position depends on the servo's time alone, so that in virtual time
+ * It behaves as a device that opens at once and never fails. By default its hand is as stiff as one
+ * likes: it goes where the motion says, whatever the force; the force is kept and can be read back
+ * with GetForce(). With BodyOn() it has mechanics and a hand that gives way: mass, friction, motors
+ * and encoders, which the motion's point pulls by a spring and a damper (haptics::SimulatedBody).
+ *
+ * The position depends on the servo's times and forces alone, so that in virtual time
  * (vtkHapticServo::Step()) every run gives the same result.
  *
  * Four motions:
@@ -19,7 +22,7 @@
  * At the end the hand stays at the last point. With Loop it goes straight back to the first point
  * at the path's mean speed and starts over.
  *
- * Motion, path and stroke are read by Open(); a change later takes effect at the next Open().
+ * Motion, path, stroke and body are read by Open(); a change later takes effect at the next Open().
  * SetPosition() and SetButtons() act at once. A path that cannot be followed makes Open() fail,
  * with the cause in GetErrorMessage(), and the device stays Closed.
  *
@@ -58,6 +61,14 @@ public:
   {
     Boustrophedon, ///< to and fro in parallel lines
     Lissajous      ///< one smooth closed curve
+  };
+
+  enum PresetType
+  {
+    Touch,
+    Omni,
+    Premium,
+    Falcon
   };
 
   bool Open() override;
@@ -165,6 +176,55 @@ public:
   vtkSetClampMacro(NumberOfButtons, int, 0, 32);
   ///@}
 
+  ///@{
+  /// Whether the motion pulls a body instead of being followed to the point. Default off.
+  vtkSetMacro(Body, bool);
+  vtkGetMacro(Body, bool);
+  vtkBooleanMacro(Body, bool);
+  ///@}
+  ///@{
+  /// Mass felt at the tip [kg]. Default 0.045; 0.0001 to 10. Its viscous friction is Damping.
+  vtkSetClampMacro(Mass, double, 0.0001, 10.0);
+  vtkGetMacro(Mass, double);
+  ///@}
+  ///@{
+  /// Coulomb friction of each axis [N]: what it takes to move it from rest. Default 0; 0 to 10.
+  vtkSetClampMacro(CoulombFriction, double, 0.0, 10.0);
+  vtkGetMacro(CoulombFriction, double);
+  ///@}
+  ///@{
+  /// Step of the measured position [m]. Default 0: exact; to 0.001.
+  vtkSetClampMacro(EncoderResolution, double, 0.0, 0.001);
+  vtkGetMacro(EncoderResolution, double);
+  ///@}
+  ///@{
+  /// How late a force acts [s]: always by Delay, and by up to Jitter more, at random but the same
+  /// in every run. Default 0; 0 to 0.05. Latency is their sum.
+  vtkSetClampMacro(Delay, double, 0.0, 0.05);
+  vtkGetMacro(Delay, double);
+  vtkSetClampMacro(Jitter, double, 0.0, 0.05);
+  vtkGetMacro(Jitter, double);
+  ///@}
+  ///@{
+  /// How firmly the hand holds: a spring [N/m] to the motion's point and a damper [N s/m] against
+  /// its velocity. Default 100 and 2; 0 (let go) to 10,000 and to 100.
+  vtkSetClampMacro(HandStiffness, double, 0.0, 10000.0);
+  vtkGetMacro(HandStiffness, double);
+  vtkSetClampMacro(HandDamping, double, 0.0, 100.0);
+  vtkGetMacro(HandDamping, double);
+  ///@}
+  /**
+   * Body, limits and workspace of a real device, a PresetType; turns Body on. The hand stays.
+   *
+   * Largest force, mass, friction, encoder step and workspace of Touch, Omni and Premium 1.5 are
+   * those of the maker's data sheets, remembered and not checked again: 3.3 N, 45 g, 0.26 N, 55 um
+   * and 8.5 N, 75 g, 0.04 N, 30 um. The Falcon's force, encoder step (400 dpi) and 4-inch cube are
+   * its maker's; its mass (0.25 kg) and friction (0.5 N) are published nowhere and assumed. The
+   * largest stiffness is what common haptics software claims for each: 400, 700, 800, 3000 N/m. No
+   * maker tells a viscous friction; it is taken as the one that just holds that stiffness at 1 kHz.
+   */
+  void SetPreset(int preset);
+
 protected:
   vtkSimulatedHapticDevice();
   ~vtkSimulatedHapticDevice() override;
@@ -188,6 +248,14 @@ private:
   double PressDepth = 0.005;
   double StrokeClearance = 0.01;
   double StrokeInset = 0.05;
+  bool Body = false;
+  double Mass = 0.045;
+  double CoulombFriction = 0.0;
+  double EncoderResolution = 0.0;
+  double Delay = 0.0;
+  double Jitter = 0.0;
+  double HandStiffness = 100.0;
+  double HandDamping = 2.0;
   std::array<double, 3> ManualPosition{};
   unsigned int ManualButtons = 0;
   std::shared_ptr<SimulatedChannel> Simulated;
