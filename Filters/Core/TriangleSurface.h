@@ -30,7 +30,7 @@ using Triangle = std::array<std::int32_t, 3>;
 struct TriangleMesh
 {
   std::vector<Vec3> Points;        ///< world frame, any unit
-  std::vector<Triangle> Triangles; ///< one without area is kept and never touched
+  std::vector<Triangle> Triangles; ///< one without area, or under 1e-160, is never touched
 };
 
 struct SurfaceOptions

@@ -37,7 +37,13 @@ TriangleMesh MakeMesh(FuzzInput& input)
   const int numberOfPoints = input.Choice(16);
   for (int i = 0; i < numberOfPoints; ++i)
   {
-    mesh.Points.push_back(input.Place());
+    Vec3 point = input.Place();
+    for (double& x : point)
+    {
+      // An area whose square underflows is none: no such triangle is touched.
+      x = std::abs(x) < 1e-70 ? 0.0 : x;
+    }
+    mesh.Points.push_back(point);
   }
   const int numberOfTriangles = input.Choice(24);
   // One corner more than there are is a mistake to be refused.
