@@ -17,8 +17,9 @@ constexpr int LargestNumberOfPasses = 16;
 constexpr int LargestNumberOfCasts = 12;
 /// A refused motion is tried at 1, 1/2, ... 1/32 of its length.
 constexpr int LargestNumberOfHalvings = 6;
-/// Triangles looked up in one update, all passes and surfaces together: a few hundred in practice.
-constexpr std::int64_t LargestNumberOfTriangles = 1 << 15;
+/// Triangles looked up in one update, all passes and surfaces together: a few dozen in practice,
+/// and a few milliseconds at the most.
+constexpr std::int64_t LargestNumberOfTriangles = 1 << 17;
 
 /// Each cast makes at most one motion.
 constexpr int LargestWay = LargestNumberOfPasses * LargestNumberOfCasts + 1;

@@ -59,7 +59,7 @@ struct Contact
 /// **Monotone**: an update never takes the god-object farther from the HIP it is given, beyond
 /// rounding: the premise of the stability bound K <= 2b/T on any static surface.
 ///
-/// **Bounded**: at most 16 passes of 12 casts, and 32,768 triangles looked up in all; where one
+/// **Bounded**: at most 16 passes of 12 casts, and 131,072 triangles looked up in all; where one
 /// place needs more, the god-object is held there (UpdateStatus::Overloaded).
 class VTKHAPTICSCORE_EXPORT GodObject
 {

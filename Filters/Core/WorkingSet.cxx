@@ -13,7 +13,7 @@ namespace
 {
 /// Most triangles that one gathering holds: more meet in no point of any surface seen, and fewer
 /// would leave the tip of a finely cut cone out of touch.
-constexpr std::int32_t LargestSet = 8192;
+constexpr std::int32_t LargestSet = 1 << 15;
 /// An engine that finds more in a ball is stopped, and a ball of half the radius is tried. Where
 /// even the smallest ball has more, as near the tip of a fan, more are let through.
 constexpr std::int32_t FewInBall = 64;

@@ -407,22 +407,47 @@ TEST(GodObject, IsFreeWithoutSurfaces)
 
 TEST(GodObject, FeelsTheTipOfAConeOfThousandsOfTriangles)
 {
-  // 5,000 triangles meet in the tip.
-  TriangleMesh cone;
-  cone.Points.push_back({ 0, 0, 0.05 });
-  const int count = 5000;
+  for (const int count : { 100, 5000, 20000 }) // all meet in the tip
+  {
+    TriangleMesh cone;
+    cone.Points.push_back({ 0, 0, 0.05 });
+    for (int i = 0; i < count; ++i)
+    {
+      const double a = 2.0 * M_PI * i / count;
+      cone.Points.push_back({ 0.02 * std::cos(a), 0.02 * std::sin(a), 0 });
+      cone.Triangles.push_back({ 0, 1 + i, 1 + (i + 1) % count });
+    }
+    GodObject god({ MakeSurface(cone) });
+    god.Update({ 1e-5, 2e-5, 0.06 });
+    const Contact& contact = god.Update({ 1e-5, 2e-5, 0.04 });
+    EXPECT_EQ(contact.Status, UpdateStatus::Touching) << count;
+    EXPECT_GT(contact.Position[2], 0.04);
+    for (int tick = 0; tick < 200; ++tick)
+    {
+      const double a = 0.05 * tick;
+      const Contact& around = god.Update({ 2e-3 * std::cos(a), 2e-3 * std::sin(a), 0.043 });
+      ASSERT_EQ(around.Status, UpdateStatus::Touching) << count << " triangles, tick " << tick;
+    }
+    EXPECT_EQ(god.Update({ 0, 0, 0.06 }).Status, UpdateStatus::Free);
+  }
+}
+
+TEST(GodObject, IsHeldNotLetThroughWhereTooManyTrianglesMeet)
+{
+  TriangleMesh fan;
+  fan.Points.push_back({ 0, 0, 0 });
+  const int count = 50000;
   for (int i = 0; i < count; ++i)
   {
     const double a = 2.0 * M_PI * i / count;
-    cone.Points.push_back({ 0.02 * std::cos(a), 0.02 * std::sin(a), 0 });
-    cone.Triangles.push_back({ 0, 1 + i, 1 + (i + 1) % count });
+    fan.Points.push_back({ std::cos(a), std::sin(a), 0 });
+    fan.Triangles.push_back({ 0, 1 + i, 1 + (i + 1) % count });
   }
-  GodObject god({ MakeSurface(cone) });
-  god.Update({ 1e-5, 2e-5, 0.06 });
-  const Contact& contact = god.Update({ 1e-5, 2e-5, 0.04 });
-  EXPECT_EQ(contact.Status, UpdateStatus::Touching);
-  EXPECT_GT(contact.Position[2], 0.04);
-  EXPECT_EQ(god.Update({ 0, 0, 0.06 }).Status, UpdateStatus::Free);
+  GodObject god({ MakeSurface(fan, Side::Both) });
+  god.Update({ 1e-9, 1e-9, 0.1 });
+  const Contact& contact = god.Update({ 1e-9, 1e-9, -0.1 });
+  EXPECT_EQ(contact.Status, UpdateStatus::Overloaded);
+  EXPECT_GE(contact.Position[2], 0.0);
 }
 
 TEST(ForceModel, IsASpringLimitedToWhatTheDeviceCan)
