@@ -208,11 +208,14 @@ TEST_F(FalconFaults, LetsGoAtOnceWhenAWatchdogHaltsIt)
   ASSERT_TRUE(this->Run([&] { return this->GotForce(); }, Push));
   const auto channel = this->Device->GetChannel();
   channel->Halt();
+  // Fewer than the 20 ms after which a force is withdrawn anyway, and without a tick.
   const vtkTypeInt64 before = this->Device->GetNumberOfExchanges();
-  while (this->Device->GetNumberOfExchanges() < before + 2)
+  const auto end = FalconModel::Clock::now() + std::chrono::seconds(5);
+  while (this->Device->GetNumberOfExchanges() < before + 2 && FalconModel::Clock::now() < end)
   {
     std::this_thread::yield();
   }
+  EXPECT_EQ(this->Device->GetNumberOfLateCommands(), 0);
   EXPECT_TRUE(this->EndsWithoutForce()) << "no tick came since";
   const auto count = [&]
   { return this->Bus.With(1, [](FalconModel& model) { return model.Commands.size(); }); };
