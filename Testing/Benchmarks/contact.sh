@@ -1,0 +1,34 @@
+#!/bin/sh
+# Runs the contact benchmark and leaves a CSV that says on what machine it was made.
+# Usage: sh Testing/Benchmarks/contact.sh [FILE]      default: Testing/Benchmarks/results/contact.csv
+#        BUILD=DIR for a build folder other than build/
+set -eu
+here=$(cd "$(dirname "$0")" && pwd)
+root=$(cd "$here/../.." && pwd)
+build=${BUILD:-$root/build}
+out=${1:-$here/results/contact.csv}
+program=$build/bin/HapticsContactBenchmark
+if [ ! -x "$program" ]; then
+  echo "No $program: build first, for example with sh Testing/test.sh; it needs libbenchmark-dev." >&2
+  exit 1
+fi
+
+# The frog's 1.5 million triangles; without a registry in reach that one stroke is left out.
+HAPTICS_SURFACES=${HAPTICS_SURFACES:-$build/surfaces}
+export HAPTICS_SURFACES
+/usr/bin/python3 "$root/Data/get_surfaces.py" --no-fallback --output "$HAPTICS_SURFACES" frog >&2 ||
+  echo "The frog could not be had." >&2
+
+rows=$(mktemp)
+trap 'rm -f "$rows"' EXIT
+"$program" --benchmark_out="$rows" --benchmark_out_format=csv >&2
+mkdir -p "$(dirname "$out")"
+{
+  echo "# machine: $(sed -n 's/^model name[^:]*: *//p' /proc/cpuinfo | sort -u | head -1), $(nproc) cores"
+  echo "# system: $(sed -n 's/^PRETTY_NAME="\(.*\)"/\1/p' /etc/os-release)"
+  echo "# compiler: $(c++ --version | head -1), Release"
+  echo "# commit: $(git -C "$root" rev-parse --short HEAD 2>/dev/null || echo unknown)"
+  echo "# date: $(date +%Y-%m-%d)"
+  grep -E '^name|_median' "$rows"
+} > "$out"
+echo "$out"
