@@ -58,7 +58,7 @@ bool FalconChannel::ReadDevice(double time, DeviceSample& sample) noexcept
     this->Trouble.store(Problem::OldAnswer, std::memory_order_release);
     return false;
   }
-  const FalconReply& reply = this->Link->Answers.Get().Reply;
+  const FalconReply& reply = this->Link->Answers.Get();
   for (std::size_t leg = 0; leg < 3; ++leg)
   {
     this->Angles[leg] = FalconKinematics::AngleOfCount(reply.Encoders[leg]);

@@ -172,7 +172,8 @@ void FalconExchange::Serve(double commandTimeout, const std::function<void()>& r
       throw FalconFault("The Falcon lost its origin, as it does when its power fails for a moment. "
                         "Check its power supply, then open and home it again.");
     }
-    this->Link.Answers.Publish({ reply, static_cast<double>(Now() - start) * 1e-9 });
+    this->Link.Times.Add(static_cast<double>(Now() - start) * 1e-9);
+    this->Link.Answers.Publish(reply);
     this->Link.Bell.Ring();
     if (!this->Link.Up.exchange(true, std::memory_order_acq_rel))
     {

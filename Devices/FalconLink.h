@@ -9,6 +9,7 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <cstddef>
 #include <cstdint>
 #include <ctime>
 
@@ -39,11 +40,42 @@ private:
   sem_t Semaphore;
 };
 
-/// What the device answered last.
-struct FalconAnswer
+/// @brief How long exchanges took: counts in bins of 20 us, longer ones in the last bin.
+class ExchangeTimes
 {
-  FalconReply Reply;
-  double Duration = 0.0; ///< of the exchange [s]
+public:
+  static constexpr double BinWidth = 20e-6; ///< [s]
+
+  /// One thread.
+  void Add(double duration) noexcept
+  {
+    const double bin = duration / BinWidth;
+    const std::size_t last = this->Bins.size() - 1;
+    std::atomic<std::uint32_t>& count =
+      this->Bins[bin < static_cast<double>(last) ? static_cast<std::size_t>(bin) : last];
+    count.store(count.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+  }
+  /// The time [s], up to a bin, within which this share of them was over; 0 before the first. Any
+  /// thread.
+  double Within(double share) const noexcept
+  {
+    std::uint64_t total = 0;
+    for (const auto& bin : this->Bins)
+    {
+      total += bin.load(std::memory_order_relaxed);
+    }
+    std::uint64_t passed = 0;
+    std::size_t bins = 0;
+    while (
+      bins < this->Bins.size() && static_cast<double>(passed) < share * static_cast<double>(total))
+    {
+      passed += this->Bins[bins++].load(std::memory_order_relaxed);
+    }
+    return static_cast<double>(bins) * BinWidth;
+  }
+
+private:
+  std::array<std::atomic<std::uint32_t>, 1000> Bins{};
 };
 
 /// What the servo asks for.
@@ -57,7 +89,7 @@ struct FalconDemand
 struct FalconLink
 {
   /// To the servo: one at a time, newest wins.
-  LatestValue<FalconAnswer> Answers;
+  LatestValue<FalconReply> Answers;
   /// From the servo.
   LatestValue<FalconDemand> Demands;
   /// How often a watchdog let go of all force: what was asked for before does not count any more.
@@ -75,6 +107,7 @@ struct FalconLink
   std::atomic<std::uint64_t> MissedReplies{ 0 };    ///< asked again, with zero torque
   std::atomic<std::uint64_t> MalformedPackets{ 0 }; ///< skipped
   std::atomic<std::uint64_t> LateCommands{ 0 };     ///< torques that were withdrawn as too old
+  ExchangeTimes Times;                              ///< while ready
   ///@}
 };
 }

@@ -233,6 +233,11 @@ vtkTypeInt64 vtkFalconHapticDevice::GetNumberOfLateCommands() const
   return Load(this->Link->LateCommands);
 }
 
+double vtkFalconHapticDevice::GetExchangeTime(double share) const
+{
+  return this->Link->Times.Within(share);
+}
+
 void vtkFalconHapticDevice::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
@@ -244,6 +249,8 @@ void vtkFalconHapticDevice::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "TorqueScale: " << this->TorqueScale << " 1/(N m)\n";
   os << indent << "Leds: " << this->Leds << "\n";
   os << indent << "RealTimePriority: " << (this->RealTime ? "yes" : "no") << "\n";
+  os << indent << "ExchangeTime: " << this->GetExchangeTime(0.5) << " s (median), "
+     << this->GetExchangeTime(0.99) << " s (99 %)\n";
   os << indent << "NumberOfExchanges: " << this->GetNumberOfExchanges() << "\n";
   os << indent << "NumberOfMissedReplies: " << this->GetNumberOfMissedReplies() << "\n";
   os << indent << "NumberOfMalformedPackets: " << this->GetNumberOfMalformedPackets() << "\n";

@@ -117,6 +117,9 @@ public:
   vtkTypeInt64 GetNumberOfMalformedPackets() const;
   vtkTypeInt64 GetNumberOfLateCommands() const;
   ///@}
+  /// The time [s] within which a share (0 to 1) of the exchanges was over while ready, to 20 us and
+  /// up to 20 ms. GetExchangeTime(0.99) well above 2 ms tells of a bad hub or a busy machine.
+  double GetExchangeTime(double share) const;
 
 protected:
   vtkFalconHapticDevice();

@@ -388,6 +388,11 @@ TEST_F(FalconFaults, ExchangesAThousandPacketsASecondWithAServoThread)
   servo.join();
   EXPECT_EQ(lost, 0);
   this->RecordProperty("exchanges_per_second", static_cast<int>(exchanges / duration));
+  this->RecordProperty(
+    "p99_exchange_us", static_cast<int>(1e6 * this->Device->GetExchangeTime(0.99)));
+  EXPECT_GT(this->Device->GetExchangeTime(0.5), 0.0);
+  EXPECT_LE(this->Device->GetExchangeTime(0.5), 1e-3) << "the bus in the test takes microseconds";
+  EXPECT_LE(this->Device->GetExchangeTime(0.5), this->Device->GetExchangeTime(0.99));
   EXPECT_LT(exchanges / duration, 1020.0) << "never faster than 1 kHz";
   EXPECT_GT(exchanges / duration, 500.0) << "half of 1 kHz, on however busy a machine";
   EXPECT_EQ(this->Device->GetNumberOfMissedReplies(), 0);
