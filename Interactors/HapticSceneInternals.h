@@ -1,6 +1,7 @@
 #ifndef HapticSceneInternals_h
 #define HapticSceneInternals_h
 
+#include "SceneEvents.h"
 #include "SurfaceSet.h"
 #include "TickRecord.h"
 #include "TraceRecorder.h"
@@ -15,6 +16,12 @@ class vtkHapticScene::Internals
 public:
   haptics::SurfaceSet Surfaces;
   haptics::TraceRecorder Recorder;
+  haptics::SceneEvents Events;
+  int DeviceState = 0;
+  bool Clutched = false;
+  bool ClutchMoved = false;  ///< what is touched has to be published anew
+  bool ClutchHeld = false;   ///< the device's button
+  double LiftOff[3] = {};    ///< from the hand to where it comes back [world unit]
   std::vector<haptics::TickRecord> Drained; // kept for its memory
   std::optional<haptics::TickRecord> Latest;
   haptics::SceneCell LatestCell;

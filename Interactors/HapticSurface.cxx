@@ -147,6 +147,7 @@ bool HapticSurface::Build(std::string& error)
   std::copy_n(this->Matrix->GetData(), 16, matrix.begin());
   if (local == this->Untransformed && matrix == this->MatrixInForce)
   {
+    this->KeepPrepared();
     return true; // a colour has changed, or the like
   }
   Snapshot built = this->Matrix->IsIdentity() ? local : this->Transform(local, error);
@@ -161,7 +162,14 @@ bool HapticSurface::Build(std::string& error)
   this->InForce = std::move(built);
   this->Untransformed = local;
   this->MatrixInForce = matrix;
+  this->KeepPrepared();
   return true;
+}
+
+void HapticSurface::KeepPrepared()
+{
+  this->Kept = vtkSmartPointer<vtkPolyData>::New();
+  this->Kept->ShallowCopy(this->Preparation->GetOutput());
 }
 
 void HapticSurface::KeepCellIds()

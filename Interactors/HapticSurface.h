@@ -2,7 +2,9 @@
 #define HapticSurface_h
 
 #include "TriangleSurface.h"
+#include "vtkActor.h"
 #include "vtkNew.h"
+#include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
@@ -11,7 +13,6 @@
 #include <string>
 #include <vector>
 
-class vtkActor;
 class vtkAlgorithm;
 class vtkAlgorithmOutput;
 class vtkGodObjectFilter;
@@ -48,6 +49,9 @@ public:
 
   /// What is touched; null while the surface is hidden or was never any good.
   Snapshot Touched() const { return this->Shown ? this->InForce : nullptr; }
+  /// The geometry in force, its triangles in the snapshot's order, with its arrays as they were at
+  /// the last Pull(); not moved by the actor's matrix. Null where it was never any good.
+  vtkPolyData* Prepared() const { return this->Kept; }
   /// For each triangle of the snapshot in force the id of its cell in the geometry given.
   CellIds OriginalCellIds() const { return this->Ids; }
 
@@ -72,6 +76,7 @@ private:
   bool Build(std::string& error);
   Snapshot Transform(const Snapshot& local, std::string& error) const;
   void KeepCellIds();
+  void KeepPrepared();
   static void KeepError(vtkObject* caller, unsigned long event, void* clientData, void* text);
 
   int Identifier;
@@ -89,6 +94,7 @@ private:
   Snapshot Untransformed; ///< what InForce was made of
   std::array<double, 16> MatrixInForce{};
   CellIds Ids;
+  vtkSmartPointer<vtkPolyData> Kept;
 };
 }
 

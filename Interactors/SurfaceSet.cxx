@@ -1,5 +1,6 @@
 #include "SurfaceSet.h"
 
+#include "HapticProbeFiller.h"
 #include "vtkActor.h"
 
 #include <algorithm>
@@ -88,7 +89,7 @@ void SurfaceSet::Published(std::uint64_t generation)
   {
     if (surface->Touched())
     {
-      entries.push_back({ surface->Id(), surface->OriginalCellIds() });
+      entries.push_back({ surface->Id(), surface->OriginalCellIds(), surface->Touched() });
     }
   }
 }
@@ -98,17 +99,57 @@ void SurfaceSet::Forget(std::uint64_t generation)
   this->Generations.erase(this->Generations.begin(), this->Generations.lower_bound(generation));
 }
 
+const SurfaceSet::Entry* SurfaceSet::Find(const TickRecord& tick, int constraint) const
+{
+  const auto generation = this->Generations.find(tick.Generation);
+  if (constraint >= tick.NumberOfConstraints || generation == this->Generations.end())
+  {
+    return nullptr;
+  }
+  return &generation->second.at(static_cast<std::size_t>(tick.Constraints[constraint].Surface));
+}
+
 SceneCell SurfaceSet::Locate(const TickRecord& tick) const
 {
   SceneCell found;
-  const auto generation = this->Generations.find(tick.Generation);
-  if (tick.NumberOfConstraints > 0 && generation != this->Generations.end())
+  if (const Entry* entry = this->Find(tick, 0))
   {
-    const Constraint& constraint = tick.Constraints[0];
-    const Entry& entry = generation->second.at(static_cast<std::size_t>(constraint.Surface));
-    found.Surface = entry.Id;
-    found.Cell = entry.Cells->at(static_cast<std::size_t>(constraint.Triangle));
+    found.Surface = entry->Id;
+    found.Cell = entry->Cells->at(static_cast<std::size_t>(tick.Constraints[0].Triangle));
   }
   return found;
+}
+
+void SurfaceSet::Probe(const TickRecord& tick, vtkHapticProbe* probe) const
+{
+  vtkHapticProbeFiller::SetTick(probe, tick);
+  if (const Entry* entry = this->Find(tick, 0))
+  {
+    // The arrays are those of now; where the geometry has changed since there are none for it.
+    const HapticSurface* surface = this->Find(entry->Id);
+    const bool unchanged = surface && surface->Touched() == entry->Touched;
+    vtkHapticProbeFiller::SetContact(probe, tick, entry->Id, this->Locate(tick).Cell, entry->Touched,
+      unchanged ? surface->Prepared() : nullptr);
+  }
+}
+
+std::vector<Vec3> SurfaceSet::ActiveCorners(const TickRecord& tick) const
+{
+  std::vector<Vec3> corners;
+  for (int i = 0; i < tick.NumberOfConstraints; ++i)
+  {
+    if (const Entry* entry = this->Find(tick, i))
+    {
+      const TriangleSurface& surface = *entry->Touched;
+      for (const std::int32_t corner :
+        surface.Triangles()[static_cast<std::size_t>(tick.Constraints[i].Triangle)])
+      {
+        const Vec3& p = surface.Points()[static_cast<std::size_t>(corner)];
+        const Vec3& o = surface.Origin();
+        corners.push_back({ p[0] + o[0], p[1] + o[1], p[2] + o[2] });
+      }
+    }
+  }
+  return corners;
 }
 }

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+class vtkHapticProbe;
+
 namespace haptics
 {
 /// A cell of a surface of the scene, as its user knows them.
@@ -53,13 +55,19 @@ public:
 
   /// What the first constraint of a tick belongs to.
   SceneCell Locate(const TickRecord& tick) const;
+  /// Fills a new probe with what a tick touched.
+  void Probe(const TickRecord& tick, vtkHapticProbe* probe) const;
+  /// The corners of the triangles that hold the god-object in a tick, world frame, three each.
+  std::vector<Vec3> ActiveCorners(const TickRecord& tick) const;
 
 private:
   struct Entry
   {
     int Id;
     HapticSurface::CellIds Cells;
+    HapticSurface::Snapshot Touched;
   };
+  const Entry* Find(const TickRecord& tick, int constraint) const;
 
   std::vector<std::unique_ptr<HapticSurface>> Surfaces;
   std::map<std::uint64_t, std::vector<Entry>> Generations;

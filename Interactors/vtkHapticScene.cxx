@@ -4,7 +4,9 @@
 #include "vtkActor.h"
 #include "vtkGodObjectActor.h"
 #include "vtkHapticDevice.h"
+#include "vtkHapticLandmarks.h"
 #include "vtkHapticOverlay.h"
+#include "vtkHapticProbe.h"
 #include "vtkHapticServo.h"
 #include "vtkMath.h"
 #include "vtkMatrix4x4.h"
@@ -149,9 +151,23 @@ bool vtkHapticScene::PullState()
   {
     this->Engaged = false;
     this->ErrorMessage = this->Servo->GetErrorMessage();
-    this->InvokeEvent(vtkHapticScene::FaultEvent);
+    this->Internal->Events.Add(vtkHapticScene::FaultEvent, haptics::SceneEvents::NoData);
   }
-  return this->ShowState();
+  this->NoticeDevice();
+  const bool changed = this->ShowState();
+  this->ObeyButtons();
+  this->Internal->Events.Dispatch(this);
+  return changed;
+}
+
+void vtkHapticScene::NoticeDevice()
+{
+  const int state = this->GetDevice() ? this->GetDevice()->GetState() : vtkHapticDevice::Closed;
+  if (state != this->Internal->DeviceState)
+  {
+    this->Internal->DeviceState = state;
+    this->Internal->Events.Add(vtkHapticScene::DeviceStateEvent, state);
+  }
 }
 
 void vtkHapticScene::PullRecords()
@@ -182,6 +198,7 @@ void vtkHapticScene::PullRecords()
                                                 << " ticks; recording has stopped. Raise "
                                                    "MaximumTraceTicks to record longer.");
     }
+    this->Internal->Events.Take(record, this->Internal->Surfaces, this);
     if (this->Recording)
     {
       const haptics::SceneCell cell = this->Internal->Surfaces.Locate(record);
@@ -193,6 +210,7 @@ void vtkHapticScene::PullRecords()
   {
     this->Internal->Latest = records.back();
     this->Internal->LatestCell = this->Internal->Surfaces.Locate(records.back());
+    this->Internal->Events.EndOfTicks(this->Internal->Surfaces, this);
     this->Internal->Surfaces.Forget(records.back().Generation);
   }
 }
@@ -203,19 +221,31 @@ bool vtkHapticScene::ShowState()
   {
     return false;
   }
-  const haptics::TickRecord& latest = *this->Internal->Latest;
+  haptics::TickRecord latest = *this->Internal->Latest;
+  if (this->Internal->Clutched) // the hand stays where it let go
+  {
+    std::copy_n(this->HapticInterfacePoint, 3, latest.Hip.begin());
+    std::copy_n(this->GodObject, 3, latest.GodObject.begin());
+  }
   const int state = this->Servo->GetState();
   const bool live = state == vtkHapticServo::Running || state == vtkHapticServo::Stepping;
   const haptics::Vec3 force = live ? latest.WorldForce : haptics::Vec3{};
   const bool touching = live && latest.NumberOfConstraints > 0;
   const haptics::SceneCell cell = touching ? this->Internal->LatestCell : haptics::SceneCell();
 
+  if (!live)
+  {
+    this->Internal->Events.Stop(this);
+  }
+  if (this->Probe)
+  {
+    this->UpdateProbe(touching);
+  }
+
   const bool changed =
     !std::equal(latest.Hip.begin(), latest.Hip.end(), this->HapticInterfacePoint) ||
     !std::equal(latest.GodObject.begin(), latest.GodObject.end(), this->GodObject) ||
     !std::equal(force.begin(), force.end(), this->Force) || touching != this->Touching;
-  const bool began = touching && !this->Touching;
-  const bool ended = !touching && this->Touching;
 
   std::copy(latest.Hip.begin(), latest.Hip.end(), this->HapticInterfacePoint);
   std::copy(latest.GodObject.begin(), latest.GodObject.end(), this->GodObject);
@@ -226,14 +256,6 @@ bool vtkHapticScene::ShowState()
   this->TouchedCell = cell.Cell;
 
   this->ShowInPicture();
-  if (began)
-  {
-    this->InvokeEvent(vtkHapticScene::ContactBeginEvent);
-  }
-  if (ended)
-  {
-    this->InvokeEvent(vtkHapticScene::ContactEndEvent);
-  }
   return changed;
 }
 
@@ -269,6 +291,7 @@ void vtkHapticScene::ShowInPicture()
     this->Overlay->SetForce(vtkMath::Norm(this->Force));
     const double limit = this->Servo->GetEffectiveMaximumForce();
     this->Overlay->SetMaximumForce(limit > 0.0 && limit < VTK_DOUBLE_MAX ? limit : 3.3);
+    this->Overlay->SetReadout(this->Overlay->GetShowReadout() ? this->GetProbe()->GetText() : "");
   }
   if (this->Actor)
   {
@@ -297,6 +320,24 @@ vtkHapticOverlay* vtkHapticScene::GetOverlay()
     this->ShowInPicture();
   }
   return this->Overlay;
+}
+
+void vtkHapticScene::UpdateProbe(bool touching)
+{
+  this->Probe = vtkSmartPointer<vtkHapticProbe>::New();
+  if (touching)
+  {
+    this->Internal->Surfaces.Probe(*this->Internal->Latest, this->Probe);
+  }
+}
+
+vtkHapticProbe* vtkHapticScene::GetProbe()
+{
+  if (!this->Probe)
+  {
+    this->UpdateProbe(this->Touching);
+  }
+  return this->Probe;
 }
 
 vtkHapticServo* vtkHapticScene::GetServo()

@@ -40,7 +40,9 @@ class vtkCamera;
 class vtkGodObjectActor;
 class vtkGodObjectFilter;
 class vtkHapticDevice;
+class vtkHapticLandmarks;
 class vtkHapticOverlay;
+class vtkHapticProbe;
 class vtkHapticServo;
 class vtkMatrix4x4;
 class vtkPolyData;
@@ -52,13 +54,28 @@ public:
   vtkTypeMacro(vtkHapticScene, vtkObject);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// Invoked by Update() and Step(). No call data; the getters tell the state after the event.
+  /**
+   * Invoked on the GUI thread, from Update(), Step(), Engage() and Release(), when the scene has
+   * taken in everything: the getters tell the state after the last tick, the call data what was at
+   * the event's own tick. In the order of the ticks; within one tick buttons, then contact, then
+   * overload. What happened between two updates is not lost, but for slides, of which each update
+   * tells one at most, last. Probes are made only for events that somebody observes.
+   *
+   * Python: decorate the observer with vtkmodules.util.misc.calldata_type, VTK_OBJECT (of
+   * vtkmodules.util.vtkConstants) for a probe and VTK_INT for a number.
+   */
   enum SceneEvents
   {
-    ContactBeginEvent = vtkCommand::UserEvent + 4200, ///< a surface came to hold the god-object
-    ContactEndEvent,                                  ///< none does any more
-    SurfaceErrorEvent, ///< a surface could not be taken in: see GetErrorMessage()
-    FaultEvent         ///< the servo stopped by itself, no force: see GetErrorMessage()
+    ContactBeginEvent = vtkCommand::UserEvent + 4200, ///< vtkHapticProbe: a surface holds the hand
+    ContactEndEvent,    ///< vtkHapticProbe: none does any more; it tells the hand's free place
+    SurfaceErrorEvent,  ///< no data; a surface could not be taken in: see GetErrorMessage()
+    FaultEvent,         ///< no data; the servo stopped by itself: see GetErrorMessage()
+    ContactSlideEvent,  ///< vtkHapticProbe: the god-object has moved along a surface
+    ButtonPressEvent,   ///< int*: the device's button, from 0
+    ButtonReleaseEvent, ///< int*: the device's button, from 0
+    DeviceStateEvent,   ///< int*: a vtkHapticDevice::DeviceState
+    OverloadEvent,      ///< vtkHapticProbe: too many triangles in one place; held where it is safe
+    LandmarkEvent       ///< int*: how many landmarks there are, after one came by a button
   };
 
   ///@{
@@ -164,6 +181,44 @@ public:
   vtkGetMacro(TouchedCell, vtkIdType); ///< id of its cell as it was given, else -1
   ///@}
 
+  /**
+   * The contact after the last Update() or Step(): ids, barycentric position, the values of every
+   * array. Another object after each change; never null. Made when asked for.
+   */
+  vtkHapticProbe* GetProbe();
+
+  /** The landmarks. Never null. */
+  vtkHapticLandmarks* GetLandmarks();
+  /** Drops a landmark where the hand touches; its number, or -1 and an error in free space. */
+  int DropLandmark();
+
+  ///@{
+  /**
+   * The device's button that drops a landmark (default 0) and the one that is the clutch while it
+   * is held (default 1); -1 for none, at most 31.
+   */
+  vtkSetClampMacro(LandmarkButton, int, -1, 31);
+  vtkGetMacro(LandmarkButton, int);
+  vtkSetClampMacro(ClutchButton, int, -1, 31);
+  vtkGetMacro(ClutchButton, int);
+  ///@}
+
+  ///@{
+  /**
+   * The clutch: while it is on nothing is touched, no force is asked for, and the hand in the
+   * picture stays, so that the device can be moved back into the middle of its reach. When it is
+   * let go the workspace is where the hand had left the surface. Default off.
+   */
+  void SetClutched(bool clutched);
+  bool GetClutched();
+  ///@}
+
+  /**
+   * Magnifies what the device reaches about the hand's place: with a factor of 2 a movement goes
+   * twice as far in the world. False and an error where it is not finite and > 0.
+   */
+  bool ScaleWorkspace(double factor);
+
   ///@{
   /**
    * Records every tick, over several Engage() too, whose times each start at 0. StartRecording()
@@ -222,6 +277,9 @@ private:
   bool PullState();
   void PullRecords();
   bool ShowState();
+  void NoticeDevice();
+  void ObeyButtons();
+  void UpdateProbe(bool touching);
   void ShowInPicture();
 
   vtkNew<vtkHapticServo> Servo;
@@ -229,6 +287,10 @@ private:
   vtkSmartPointer<vtkHapticOverlay> Overlay; // as the actor
   vtkNew<vtkPolyData> Trace;
   vtkNew<vtkMatrix4x4> Workspace;
+  vtkNew<vtkHapticLandmarks> Landmarks;
+  vtkSmartPointer<vtkHapticProbe> Probe; // null until asked for
+  int LandmarkButton = 0;
+  int ClutchButton = 1;
   std::string ErrorMessage;
 
   double HapticInterfacePoint[3] = { 0.0, 0.0, 0.0 };

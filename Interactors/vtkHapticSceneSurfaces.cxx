@@ -16,6 +16,8 @@
 #include "vtkPolyData.h"
 #include "vtkTrivialProducer.h"
 
+#include <utility>
+
 int vtkHapticScene::AddSurface(vtkActor* actor)
 {
   if (!actor)
@@ -173,11 +175,17 @@ bool vtkHapticScene::PullSurfaces()
 {
   std::vector<std::string> errors;
   haptics::SurfaceSet& surfaces = this->Internal->Surfaces;
-  const bool changed = surfaces.Pull(errors);
+  const bool clutchMoved = std::exchange(this->Internal->ClutchMoved, false);
+  const bool changed = surfaces.Pull(errors) || clutchMoved;
   if (changed)
   {
+    std::vector<haptics::HapticSurface::Snapshot> touched;
+    if (!this->Internal->Clutched)
+    {
+      touched = surfaces.Touched();
+    }
     const std::uint64_t generation =
-      this->Servo->PublishGodObject(std::make_unique<haptics::GodObject>(surfaces.Touched()));
+      this->Servo->PublishGodObject(std::make_unique<haptics::GodObject>(std::move(touched)));
     if (!this->Servo->IsRunning())
     {
       surfaces.Forget(generation); // all records are drained, no tick can tell of older ones

@@ -5,6 +5,7 @@ haptics_add_gtest(TestHapticScene
   TestHapticScene.cxx
   TestHapticSceneActors.cxx
   TestHapticSceneWorkspace.cxx
+  TestSceneEvents.cxx
   LIBRARIES Haptics::Devices Haptics::Filters Haptics::Interactors VTK::FiltersSources
             VTK::RenderingOpenGL2)
 haptics_add_gtest(TestInteractorStyleHaptic

@@ -1,0 +1,105 @@
+#include "HapticProbeFiller.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkIdList.h"
+#include "vtkMath.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace
+{
+/// The weights of the triangle's point nearest to where `p` falls on its plane, within it.
+void FindWeights(const haptics::Vec3& p, const haptics::Vec3 corners[3], double weights[3])
+{
+  double u[3];
+  double v[3];
+  double w[3];
+  vtkMath::Subtract(corners[1].data(), corners[0].data(), u);
+  vtkMath::Subtract(corners[2].data(), corners[0].data(), v);
+  vtkMath::Subtract(p.data(), corners[0].data(), w);
+  const double uu = vtkMath::Dot(u, u);
+  const double uv = vtkMath::Dot(u, v);
+  const double vv = vtkMath::Dot(v, v);
+  const double uw = vtkMath::Dot(u, w);
+  const double vw = vtkMath::Dot(v, w);
+  const double determinant = uu * vv - uv * uv;
+  weights[1] = determinant > 0.0 ? (vv * uw - uv * vw) / determinant : 0.0;
+  weights[2] = determinant > 0.0 ? (uu * vw - uv * uw) / determinant : 0.0;
+  weights[0] = 1.0 - weights[1] - weights[2];
+  double sum = 0.0;
+  for (int i = 0; i < 3; ++i)
+  {
+    weights[i] = std::max(0.0, weights[i]);
+    sum += weights[i];
+  }
+  vtkMath::MultiplyScalar(weights, 1.0 / sum);
+}
+}
+
+void vtkHapticProbeFiller::SetTick(vtkHapticProbe* probe, const haptics::TickRecord& tick)
+{
+  probe->Time = tick.Time;
+  probe->Penetration = tick.NumberOfConstraints > 0 ? tick.Penetration : 0.0;
+  std::copy(tick.Hip.begin(), tick.Hip.end(), probe->HapticInterfacePoint);
+  std::copy(tick.GodObject.begin(), tick.GodObject.end(), probe->Position);
+  std::copy(tick.WorldForce.begin(), tick.WorldForce.end(), probe->Force);
+}
+
+void vtkHapticProbeFiller::SetContact(vtkHapticProbe* probe, const haptics::TickRecord& tick,
+  int surfaceId, vtkIdType cell, std::shared_ptr<const haptics::TriangleSurface> surface,
+  vtkPolyData* prepared)
+{
+  const haptics::Constraint& constraint = tick.Constraints[0];
+  const auto t = static_cast<std::size_t>(constraint.Triangle);
+  probe->Touching = true;
+  probe->Surface = surfaceId;
+  probe->Cell = cell;
+  std::copy(constraint.Normal.begin(), constraint.Normal.end(), probe->Normal);
+
+  const haptics::Triangle& triangle = surface->Triangles()[t];
+  haptics::Vec3 corners[3];
+  haptics::Vec3 local;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    corners[i] = surface->Points()[static_cast<std::size_t>(triangle[i])];
+    local[i] = tick.GodObject[i] - surface->Origin()[i];
+  }
+  FindWeights(local, corners, probe->Weights);
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    probe->Position[i] = surface->Origin()[i] + probe->Weights[0] * corners[0][i] +
+      probe->Weights[1] * corners[1][i] + probe->Weights[2] * corners[2][i];
+  }
+  probe->Where = { surface, constraint.Triangle };
+
+  if (!prepared || prepared->GetNumberOfPolys() != static_cast<vtkIdType>(surface->Triangles().size()))
+  {
+    return;
+  }
+  vtkNew<vtkIdList> ids;
+  prepared->GetPolys()->GetCellAtId(constraint.Triangle, ids);
+  // A mirrored actor's surface has the corners in another order than its geometry.
+  const bool mirrored = ids->GetId(1) == triangle[2] && ids->GetId(2) == triangle[1];
+  const double weights[3] = { probe->Weights[0], probe->Weights[mirrored ? 2 : 1],
+    probe->Weights[mirrored ? 1 : 2] };
+  vtkDataArray* original = prepared->GetPointData()->GetArray("OriginalPointId");
+  for (int i = 0; i < 3; ++i)
+  {
+    probe->Weights[i] = weights[i];
+    probe->PointIds[i] = original ? static_cast<vtkIdType>(original->GetComponent(ids->GetId(i), 0))
+                                  : ids->GetId(i);
+  }
+  probe->PointValues->CopyAllOn();
+  probe->PointValues->InterpolateAllocate(prepared->GetPointData(), 1);
+  probe->PointValues->InterpolatePoint(prepared->GetPointData(), 0, ids, probe->Weights);
+  probe->PointValues->RemoveArray("OriginalPointId");
+  probe->CellValues->CopyAllOn();
+  probe->CellValues->CopyAllocate(prepared->GetCellData(), 1);
+  probe->CellValues->CopyData(prepared->GetCellData(), constraint.Triangle, 0);
+  probe->CellValues->RemoveArray("OriginalCellId");
+}

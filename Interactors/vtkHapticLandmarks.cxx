@@ -1,0 +1,343 @@
+#include "vtkHapticLandmarks.h"
+
+#include "GeodesicPath.h"
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkHapticProbe.h"
+#include "vtkIdTypeArray.h"
+#include "vtkIntArray.h"
+#include "vtkMath.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkStringArray.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+vtkStandardNewMacro(vtkHapticLandmarks);
+
+namespace
+{
+template <class Array>
+Array* AddArray(vtkPolyData* data, const char* name, int components)
+{
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  data->GetPointData()->AddArray(array);
+  return array; // the data holds it
+}
+
+/// As RFC 4180 has it.
+std::string Quoted(const std::string& text)
+{
+  if (text.find_first_of(",\"\n\r") == std::string::npos)
+  {
+    return text;
+  }
+  std::string quoted = "\"";
+  for (const char c : text)
+  {
+    quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  }
+  return quoted + "\"";
+}
+
+/// Every component of every array of the landmarks, under its name, each once.
+std::vector<std::string> ColumnsOf(vtkDataSetAttributes* values)
+{
+  std::vector<std::string> columns;
+  for (int i = 0; i < values->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = values->GetAbstractArray(i);
+    const int count = array->GetName() ? array->GetNumberOfComponents() : 0;
+    for (int c = 0; c < count; ++c)
+    {
+      columns.push_back(
+        std::string(array->GetName()) + (count > 1 ? "_" + std::to_string(c) : std::string()));
+    }
+  }
+  return columns;
+}
+
+std::string ValueOf(vtkDataSetAttributes* values, const std::string& column)
+{
+  for (int i = 0; i < values->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = values->GetAbstractArray(i);
+    const int count = array->GetName() ? array->GetNumberOfComponents() : 0;
+    for (int c = 0; c < count; ++c)
+    {
+      if (column ==
+        std::string(array->GetName()) + (count > 1 ? "_" + std::to_string(c) : std::string()))
+      {
+        return Quoted(array->GetVariantValue(c).ToString());
+      }
+    }
+  }
+  return {};
+}
+}
+
+vtkHapticLandmarks::vtkHapticLandmarks() = default;
+vtkHapticLandmarks::~vtkHapticLandmarks() = default;
+
+bool vtkHapticLandmarks::Has(int number)
+{
+  if (number >= 0 && number < this->GetNumberOfLandmarks())
+  {
+    return true;
+  }
+  vtkErrorMacro("There is no landmark " << number << "; there are " << this->GetNumberOfLandmarks()
+                                        << ", counted from 0.");
+  return false;
+}
+
+int vtkHapticLandmarks::Drop(vtkHapticProbe* probe, const char* label)
+{
+  if (!probe || !probe->GetTouching())
+  {
+    vtkErrorMacro("A landmark needs a contact, and nothing is touched. Touch a surface first.");
+    return -1;
+  }
+  ++this->Dropped;
+  this->Landmarks.push_back({ probe, label ? label : std::to_string(this->Dropped) });
+  this->Modified();
+  return this->GetNumberOfLandmarks() - 1;
+}
+
+bool vtkHapticLandmarks::Undo()
+{
+  if (this->Landmarks.empty())
+  {
+    return false;
+  }
+  this->Landmarks.pop_back();
+  this->Dropped = std::max(0, this->Dropped - 1);
+  this->Modified();
+  return true;
+}
+
+bool vtkHapticLandmarks::Remove(int number)
+{
+  if (number < 0 || number >= this->GetNumberOfLandmarks())
+  {
+    return false;
+  }
+  this->Landmarks.erase(this->Landmarks.begin() + number);
+  this->Modified();
+  return true;
+}
+
+void vtkHapticLandmarks::RemoveAll()
+{
+  this->Dropped = 0;
+  if (!this->Landmarks.empty())
+  {
+    this->Landmarks.clear();
+    this->Modified();
+  }
+}
+
+int vtkHapticLandmarks::GetNumberOfLandmarks()
+{
+  return static_cast<int>(this->Landmarks.size());
+}
+
+vtkHapticProbe* vtkHapticLandmarks::GetLandmark(int number)
+{
+  return number >= 0 && number < this->GetNumberOfLandmarks()
+    ? this->Landmarks[static_cast<std::size_t>(number)].Probe.Get()
+    : nullptr;
+}
+
+void vtkHapticLandmarks::GetPosition(int number, double position[3])
+{
+  std::fill_n(position, 3, 0.0);
+  if (this->Has(number))
+  {
+    this->GetLandmark(number)->GetPosition(position);
+  }
+}
+
+std::string vtkHapticLandmarks::GetLabel(int number)
+{
+  return this->GetLandmark(number) ? this->Landmarks[static_cast<std::size_t>(number)].Label
+                                   : std::string();
+}
+
+void vtkHapticLandmarks::SetLabel(int number, const char* label)
+{
+  if (this->Has(number))
+  {
+    this->Landmarks[static_cast<std::size_t>(number)].Label = label ? label : "";
+    this->Modified();
+  }
+}
+
+double vtkHapticLandmarks::GetStraightDistance(int first, int second)
+{
+  if (!this->Has(first) || !this->Has(second))
+  {
+    return vtkMath::Nan();
+  }
+  return std::sqrt(vtkMath::Distance2BetweenPoints(
+    this->GetLandmark(first)->GetPosition(), this->GetLandmark(second)->GetPosition()));
+}
+
+double vtkHapticLandmarks::GetGeodesicDistance(int first, int second, vtkPolyData* path)
+{
+  if (!this->Has(first) || !this->Has(second))
+  {
+    return vtkMath::Nan();
+  }
+  const auto end = [this](int number)
+  {
+    vtkHapticProbe* probe = this->GetLandmark(number);
+    haptics::SurfacePoint point;
+    point.Triangle = probe->GetContact().Triangle;
+    probe->GetPosition(point.Position.data());
+    return point;
+  };
+  const auto& surface = this->GetLandmark(second)->GetContact().Touched;
+  if (this->GetLandmark(first)->GetContact().Touched != surface)
+  {
+    vtkErrorMacro("Landmarks " << first << " and " << second
+                               << " lie on two surfaces, or on one that was moved or changed in "
+                                  "between; there is no way along it. Drop them anew.");
+    return vtkMath::Nan();
+  }
+  const haptics::GeodesicPath found =
+    haptics::FindGeodesicPath(*surface, end(first), end(second));
+  if (path)
+  {
+    path->Initialize();
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    vtkNew<vtkCellArray> lines;
+    lines->InsertNextCell(static_cast<int>(found.Points.size()));
+    for (const haptics::Vec3& point : found.Points)
+    {
+      lines->InsertCellPoint(points->InsertNextPoint(point.data()));
+    }
+    path->SetPoints(points);
+    if (!found.Points.empty())
+    {
+      path->SetLines(lines);
+    }
+  }
+  return found.Length;
+}
+
+vtkPolyData* vtkHapticLandmarks::GetOutput()
+{
+  if (this->OutputTime == this->GetMTime())
+  {
+    return this->Output;
+  }
+  this->OutputTime = this->GetMTime();
+  this->Output->Initialize();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkCellArray> verts;
+  auto* labels = AddArray<vtkStringArray>(this->Output, "Label", 1);
+  auto* surfaces = AddArray<vtkIntArray>(this->Output, "Surface", 1);
+  auto* cells = AddArray<vtkIdTypeArray>(this->Output, "OriginalCellId", 1);
+  auto* ids = AddArray<vtkIdTypeArray>(this->Output, "PointIds", 3);
+  auto* weights = AddArray<vtkDoubleArray>(this->Output, "Weights", 3);
+  auto* normals = AddArray<vtkDoubleArray>(this->Output, "Normal", 3);
+  auto* forces = AddArray<vtkDoubleArray>(this->Output, "Force", 3);
+  for (const Landmark& landmark : this->Landmarks)
+  {
+    vtkHapticProbe* probe = landmark.Probe;
+    const vtkIdType id = points->InsertNextPoint(probe->GetPosition());
+    verts->InsertNextCell(1, &id);
+    labels->InsertNextValue(landmark.Label);
+    surfaces->InsertNextValue(probe->GetSurface());
+    cells->InsertNextValue(probe->GetCell());
+    const vtkIdType corners[3] = { probe->GetPointId(0), probe->GetPointId(1),
+      probe->GetPointId(2) };
+    ids->InsertNextTypedTuple(corners);
+    weights->InsertNextTypedTuple(probe->GetWeights());
+    normals->InsertNextTypedTuple(probe->GetNormal());
+    forces->InsertNextTypedTuple(probe->GetForce());
+  }
+  this->Output->SetPoints(points);
+  this->Output->SetVerts(verts);
+  return this->Output;
+}
+
+bool vtkHapticLandmarks::WriteCSV(const char* file)
+{
+  std::ofstream stream(file ? file : "");
+  std::vector<std::string> columns;
+  for (const Landmark& landmark : this->Landmarks)
+  {
+    for (vtkDataSetAttributes* values :
+      { static_cast<vtkDataSetAttributes*>(landmark.Probe->GetPointValues()),
+        static_cast<vtkDataSetAttributes*>(landmark.Probe->GetCellValues()) })
+    {
+      for (const std::string& column : ColumnsOf(values))
+      {
+        if (std::find(columns.begin(), columns.end(), column) == columns.end())
+        {
+          columns.push_back(column);
+        }
+      }
+    }
+  }
+  stream << "label,x,y,z,surface,cell,point_0,point_1,point_2,weight_0,weight_1,weight_2";
+  for (const std::string& column : columns)
+  {
+    stream << "," << Quoted(column);
+  }
+  stream << "\r\n";
+  stream.precision(std::numeric_limits<double>::max_digits10);
+  for (const Landmark& landmark : this->Landmarks)
+  {
+    vtkHapticProbe* probe = landmark.Probe;
+    const double* p = probe->GetPosition();
+    stream << Quoted(landmark.Label) << "," << p[0] << "," << p[1] << "," << p[2] << ","
+           << probe->GetSurface() << "," << probe->GetCell();
+    for (int i = 0; i < 3; ++i)
+    {
+      stream << "," << probe->GetPointId(i);
+    }
+    for (int i = 0; i < 3; ++i)
+    {
+      stream << "," << probe->GetWeight(i);
+    }
+    for (const std::string& column : columns)
+    {
+      const std::string value = ValueOf(probe->GetPointValues(), column);
+      stream << "," << (value.empty() ? ValueOf(probe->GetCellValues(), column) : value);
+    }
+    stream << "\r\n";
+  }
+  stream.close();
+  if (!stream)
+  {
+    vtkErrorMacro("The landmarks could not be written to "
+      << (file ? file : "(no name)") << ". Check that the folder exists and may be written to.");
+    return false;
+  }
+  return true;
+}
+
+void vtkHapticLandmarks::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Landmarks: " << this->Landmarks.size() << "\n";
+  for (const Landmark& landmark : this->Landmarks)
+  {
+    const double* p = landmark.Probe->GetPosition();
+    os << indent.GetNextIndent() << landmark.Label << ": (" << p[0] << ", " << p[1] << ", " << p[2]
+       << "), surface " << landmark.Probe->GetSurface() << ", cell " << landmark.Probe->GetCell()
+       << "\n";
+  }
+}

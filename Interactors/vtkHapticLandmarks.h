@@ -1,0 +1,98 @@
+/**
+ * @class   vtkHapticLandmarks
+ * @brief   Points marked by touch, each exactly on a surface: a list, its export, their distances.
+ *
+ * A vtkHapticScene drops one where the hand touches, on a button of the device or on request. They
+ * stay where they were dropped when the surface changes or goes away.
+ *
+ * Positions and lengths are in the world frame [world unit]. GUI thread.
+ *
+ * @sa vtkHapticScene vtkHapticProbe
+ */
+#ifndef vtkHapticLandmarks_h
+#define vtkHapticLandmarks_h
+
+#include "vtkHapticsInteractorsModule.h"
+#include "vtkNew.h"
+#include "vtkObject.h"
+#include "vtkSmartPointer.h"
+
+#include <string>
+#include <vector>
+
+class vtkHapticProbe;
+class vtkPolyData;
+
+class VTKHAPTICSINTERACTORS_EXPORT vtkHapticLandmarks : public vtkObject
+{
+public:
+  static vtkHapticLandmarks* New();
+  vtkTypeMacro(vtkHapticLandmarks, vtkObject);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /**
+   * Marks where a probe touches, and returns the landmark's number, from 0; -1 and an error where
+   * it touches nothing. The label is "1", "2", ... unless one is given.
+   */
+  int Drop(vtkHapticProbe* probe, const char* label = nullptr);
+  /** Takes the last one away; false where there is none. */
+  bool Undo();
+  /** Takes one away; those after it move up. False where there is no such number. */
+  bool Remove(int number);
+  void RemoveAll();
+
+  int GetNumberOfLandmarks();
+  /** What was touched; null where there is no such number. Not to be changed. */
+  vtkHapticProbe* GetLandmark(int number);
+  /** Zeros and an error where there is no such number. */
+  void GetPosition(int number, double position[3]);
+  ///@{
+  /** The label; empty, or an error, where there is no such number. */
+  std::string GetLabel(int number);
+  void SetLabel(int number, const char* label);
+  ///@}
+
+  /** Between two landmarks as the crow flies [world unit]; NaN and an error without them. */
+  double GetStraightDistance(int first, int second);
+  /**
+   * Between two landmarks along the surface that both were dropped on [world unit], as the surface
+   * was when the second one was dropped: a shortest way over its triangles, exact within those that
+   * it crosses. Infinite where the surface's parts do not hang together; NaN and an error where
+   * they lie on two surfaces, or the surface was moved or changed in between. Takes about as long
+   * as building the surface did. `path`, where given, becomes the way as a polyline.
+   */
+  double GetGeodesicDistance(int first, int second, vtkPolyData* path = nullptr);
+
+  /**
+   * The landmarks as vertices with the point arrays Label, Surface, OriginalCellId, PointIds (3),
+   * Weights (3), Normal (3), Force (3). Made anew after each change; never null.
+   */
+  vtkPolyData* GetOutput();
+  /**
+   * Writes a table: label, x, y, z, surface, cell, point_0..2, weight_0..2 and a column for each
+   * array value. False and an error where the file cannot be written.
+   */
+  bool WriteCSV(const char* file);
+
+protected:
+  vtkHapticLandmarks();
+  ~vtkHapticLandmarks() override;
+
+private:
+  vtkHapticLandmarks(const vtkHapticLandmarks&) = delete;
+  void operator=(const vtkHapticLandmarks&) = delete;
+
+  struct Landmark
+  {
+    vtkSmartPointer<vtkHapticProbe> Probe;
+    std::string Label;
+  };
+  bool Has(int number);
+
+  std::vector<Landmark> Landmarks;
+  int Dropped = 0; // for labels
+  vtkNew<vtkPolyData> Output;
+  vtkMTimeType OutputTime = 0;
+};
+
+#endif

@@ -1,0 +1,100 @@
+#include "vtkHapticProbe.h"
+
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkMath.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+
+#include <sstream>
+
+vtkStandardNewMacro(vtkHapticProbe);
+
+namespace
+{
+constexpr int MostLines = 8;
+
+void WriteValues(std::ostream& text, vtkDataSetAttributes* values, int& lines)
+{
+  for (int i = 0; i < values->GetNumberOfArrays() && lines < MostLines; ++i)
+  {
+    vtkAbstractArray* array = values->GetAbstractArray(i);
+    const int components = array->GetNumberOfComponents();
+    text << "\n" << (array->GetName() ? array->GetName() : "(unnamed)") << "  ";
+    for (int c = 0; c < components && c < 3; ++c)
+    {
+      text << (c ? ", " : "") << array->GetVariantValue(c).ToString();
+    }
+    text << (components > 3 ? ", ..." : "");
+    ++lines;
+  }
+}
+}
+
+vtkHapticProbe::vtkHapticProbe() = default;
+vtkHapticProbe::~vtkHapticProbe() = default;
+
+vtkIdType vtkHapticProbe::GetPointId(int corner)
+{
+  return corner >= 0 && corner < 3 ? this->PointIds[corner] : -1;
+}
+
+double vtkHapticProbe::GetWeight(int corner)
+{
+  return corner >= 0 && corner < 3 ? this->Weights[corner] : 0.0;
+}
+
+vtkPointData* vtkHapticProbe::GetPointValues()
+{
+  return this->PointValues;
+}
+
+vtkCellData* vtkHapticProbe::GetCellValues()
+{
+  return this->CellValues;
+}
+
+double vtkHapticProbe::GetValue(const char* array)
+{
+  vtkDataArray* values = array ? this->PointValues->GetArray(array) : nullptr;
+  if (array && !values)
+  {
+    values = this->CellValues->GetArray(array);
+  }
+  return values && values->GetNumberOfTuples() > 0 ? values->GetComponent(0, 0) : vtkMath::Nan();
+}
+
+std::string vtkHapticProbe::GetText()
+{
+  if (!this->Touching)
+  {
+    return {};
+  }
+  std::ostringstream text;
+  text.precision(5);
+  text << "surface " << this->Surface << "   cell " << this->Cell << "\n"
+       << this->Position[0] << ", " << this->Position[1] << ", " << this->Position[2];
+  int lines = 0;
+  WriteValues(text, this->PointValues, lines);
+  WriteValues(text, this->CellValues, lines);
+  return text.str();
+}
+
+void vtkHapticProbe::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  const auto print = [&](const char* name, const double v[3])
+  { os << indent << name << ": (" << v[0] << ", " << v[1] << ", " << v[2] << ")\n"; };
+  os << indent << "Touching: " << (this->Touching ? "yes" : "no") << "\n";
+  os << indent << "Time [s]: " << this->Time << "\n";
+  os << indent << "Surface: " << this->Surface << "\n";
+  os << indent << "Cell: " << this->Cell << "\n";
+  os << indent << "PointIds: " << this->PointIds[0] << ", " << this->PointIds[1] << ", "
+     << this->PointIds[2] << "\n";
+  print("Weights", this->Weights);
+  print("Position [world unit]", this->Position);
+  print("Normal", this->Normal);
+  print("Force [N]", this->Force);
+  print("HapticInterfacePoint [world unit]", this->HapticInterfacePoint);
+  os << indent << "Penetration [world unit]: " << this->Penetration << "\n";
+}

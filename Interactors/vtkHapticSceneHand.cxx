@@ -1,0 +1,124 @@
+// What the hand of a vtkHapticScene does beside touching: landmarks, clutch, scale.
+#include "vtkHapticScene.h"
+
+#include "HapticSceneInternals.h"
+#include "vtkHapticDevice.h"
+#include "vtkHapticLandmarks.h"
+#include "vtkHapticProbe.h"
+#include "vtkHapticServo.h"
+#include "vtkMatrix4x4.h"
+
+#include <cmath>
+
+namespace
+{
+constexpr double LiftOffHeight = 0.002; // [m], device frame
+}
+
+vtkHapticLandmarks* vtkHapticScene::GetLandmarks()
+{
+  return this->Landmarks;
+}
+
+int vtkHapticScene::DropLandmark()
+{
+  if (!this->Touching)
+  {
+    this->Fail("A landmark needs a contact, and nothing is touched. Touch a surface first.");
+    return -1;
+  }
+  return this->Landmarks->Drop(this->GetProbe());
+}
+
+void vtkHapticScene::ObeyButtons()
+{
+  for (const haptics::TickRecord& tick : this->Internal->Events.TakePresses(this->LandmarkButton))
+  {
+    if (tick.NumberOfConstraints > 0)
+    {
+      auto probe = vtkSmartPointer<vtkHapticProbe>::New();
+      this->Internal->Surfaces.Probe(tick, probe);
+      this->Landmarks->Drop(probe);
+      this->Internal->Events.Add(
+        vtkHapticScene::LandmarkEvent, this->Landmarks->GetNumberOfLandmarks());
+    }
+  }
+  const bool held = this->Internal->Latest && this->ClutchButton >= 0 &&
+    (this->Internal->Latest->Buttons >> this->ClutchButton & 1U) != 0;
+  if (held != this->Internal->ClutchHeld)
+  {
+    this->Internal->ClutchHeld = held;
+    this->SetClutched(held);
+  }
+}
+
+void vtkHapticScene::SetClutched(bool clutched)
+{
+  if (clutched == this->Internal->Clutched)
+  {
+    return;
+  }
+  vtkMatrix4x4* workspace = this->Workspace;
+  if (clutched)
+  {
+    // It comes back a little above the surface: the hand moves on meanwhile, and must not be
+    // inside by then.
+    const double height = LiftOffHeight * std::cbrt(workspace->Determinant());
+    const double* normal = this->GetProbe()->GetNormal();
+    for (int i = 0; i < 3; ++i)
+    {
+      this->Internal->LiftOff[i] = this->Touching ? height * normal[i] : 0.0;
+    }
+  }
+  else
+  {
+    double device[4] = { 0.0, 0.0, 0.0, 1.0 };
+    this->Servo->GetDevicePosition(device);
+    double world[4];
+    workspace->MultiplyPoint(device, world);
+    vtkNew<vtkMatrix4x4> moved;
+    moved->DeepCopy(workspace);
+    for (int i = 0; i < 3; ++i)
+    {
+      const double wanted = this->GodObject[i] + this->Internal->LiftOff[i];
+      moved->SetElement(i, 3, moved->GetElement(i, 3) + wanted - world[i]);
+    }
+    this->SetWorkspaceTransform(moved);
+  }
+  this->Internal->Clutched = clutched;
+  this->Internal->ClutchMoved = true;
+  this->PullSurfaces();
+  this->Modified();
+}
+
+bool vtkHapticScene::GetClutched()
+{
+  return this->Internal->Clutched;
+}
+
+bool vtkHapticScene::ScaleWorkspace(double factor)
+{
+  if (!std::isfinite(factor) || !(factor > 0.0))
+  {
+    this->Fail("The workspace cannot be scaled by " + std::to_string(factor) +
+      ". Give a finite factor > 0.");
+    return false;
+  }
+  vtkNew<vtkMatrix4x4> scaled;
+  scaled->DeepCopy(this->Workspace);
+  // The device's place goes to where the god-object is, so that the hand does not jump through the
+  // surface that holds it.
+  double device[4] = { 0.0, 0.0, 0.0, 1.0 };
+  this->Servo->GetDevicePosition(device);
+  for (int i = 0; i < 3; ++i)
+  {
+    double turned = 0.0;
+    for (int j = 0; j < 3; ++j)
+    {
+      scaled->SetElement(i, j, factor * scaled->GetElement(i, j));
+      turned += scaled->GetElement(i, j) * device[j];
+    }
+    scaled->SetElement(i, 3, this->GodObject[i] - turned);
+  }
+  return this->SetWorkspaceTransform(scaled);
+}
