@@ -6,21 +6,18 @@ real time. See --help.
 
 import argparse
 import os
-import shutil
 import sys
 import time
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonMath import vtkMatrix4x4
-from vtkmodules.vtkCommonTransforms import vtkTransform
-from vtkmodules.vtkFiltersGeneral import vtkTransformPolyDataFilter
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
-from vtkmodules.vtkRenderingCore import vtkRenderWindow, vtkRenderWindowInteractor
+from vtkmodules.vtkRenderingCore import vtkRenderWindowInteractor
 
 from . import vtkHapticScene, vtkInteractorStyleHaptic, vtkSimulatedHapticDevice
+from .display import DisplayError, ensure_display
 from .picture import OutputError, Picture, add_hand, stroke_lines, write_atomically
-from .stroke import StrokeError, plan_stroke
+from .stroke import StrokeError, in_device_frame, plan_stroke
 from .surfaces import READERS, SurfaceError, read_surface
 
 DEPTH_SHARES = (0.022, 0.011, 0.005, 0.002)  # of half the diagonal of the surface's bounds
@@ -93,16 +90,7 @@ def make_scene(surface, picture, path, depth):
         raise DemoError(scene.GetErrorMessage())
 
     to_world = scene.GetWorkspaceTransform()
-    to_device = vtkMatrix4x4()
-    vtkMatrix4x4.Invert(to_world, to_device)
-    transform = vtkTransform()
-    transform.SetMatrix(to_device)
-    mapped = vtkTransformPolyDataFilter()
-    mapped.SetTransform(transform)
-    mapped.SetInputData(path)
-    mapped.SetOutputPointsPrecision(1)  # float64
-    mapped.Update()
-    device.SetPath(mapped.GetOutput())
+    device.SetPath(in_device_frame(path, to_world))
     device.SetMotionToPolyline()
 
     # About 1.2 N where the surface lies flat under the hand.
@@ -199,11 +187,6 @@ def table(scene, trace):
     return rows, contact, force.max()
 
 
-def needs_display():
-    """Whether this VTK can only draw with an X server."""
-    return vtkRenderWindow().IsA("vtkXOpenGLRenderWindow") and not os.environ.get("DISPLAY")
-
-
 def run(options):
     surface = read_surface(options.surface)
     try:
@@ -250,17 +233,11 @@ def run(options):
 
 def main(arguments=None):
     options = parse(arguments)
-    if needs_display():
-        xvfb = shutil.which("xvfb-run")
-        if not xvfb:
-            print(
-                "demo: this VTK needs an X server to draw, and DISPLAY is not set. "
-                "Install xvfb (Debian: apt-get install xvfb xauth) and try again.",
-                file=sys.stderr,
-            )
-            return EXIT_DISPLAY
-        again = [sys.executable, "-m", "vtkhaptics.demo", "--offscreen"]
-        os.execv(xvfb, [xvfb, "-a", *again, *(arguments or sys.argv[1:])])
+    try:
+        ensure_display("vtkhaptics.demo", ["--offscreen", *(arguments or sys.argv[1:])])
+    except DisplayError as error:
+        print(f"demo: {error}", file=sys.stderr)
+        return EXIT_DISPLAY
     try:
         run(options)
     except SurfaceError as error:

@@ -33,6 +33,60 @@ class OutputError(Exception):
     """What could not be written, where, and what to do; for people."""
 
 
+def surface_actor(surface, color=(0.74, 0.80, 0.86)):
+    """An actor that shows a vtkPolyData smooth, but for edges sharper than 35 degrees."""
+    normals = vtkPolyDataNormals()
+    normals.SetInputData(surface)
+    normals.SetFeatureAngle(35.0)
+    normals.ConsistencyOff()
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputConnection(normals.GetOutputPort())
+    mapper.ScalarVisibilityOff()
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    look = actor.GetProperty()
+    look.SetColor(*color)
+    look.SetAmbient(0.12)
+    look.SetDiffuse(0.85)
+    look.SetSpecular(0.22)
+    look.SetSpecularPower(24.0)
+    return actor
+
+
+def add_lights(renderer):
+    """A warm key from the upper left, a cool fill from the right, a rim from behind."""
+    renderer.AutomaticLightCreationOff()
+    renderer.RemoveAllLights()
+    for position, color, intensity in (
+        ((-0.9, 1.1, 1.1), (1.0, 0.97, 0.92), 1.0),
+        ((1.2, 0.1, 0.7), (0.86, 0.92, 1.0), 0.5),
+        ((0.2, 0.9, -1.0), (1.0, 1.0, 1.0), 0.35),
+    ):
+        light = vtkLight()
+        light.SetLightTypeToCameraLight()
+        light.SetPosition(*position)
+        light.SetFocalPoint(0.0, 0.0, 0.0)
+        light.SetColor(*color)
+        light.SetIntensity(intensity)
+        renderer.AddLight(light)
+
+
+def save_window(window, path, scale=2):
+    """Writes a PNG of a window, drawn at a multiple of its size and averaged down for clean edges.
+
+    With what is drawn over the picture in pixels use a scale of 1."""
+    window.Render()
+    shot = vtkWindowToImageFilter()
+    shot.SetInput(window)
+    shot.SetScale(scale)
+    shot.ReadFrontBufferOff()
+    resize = vtkImageResize()
+    resize.SetInputConnection(shot.GetOutputPort())
+    resize.SetOutputDimensions(*window.GetSize(), 1)
+    resize.Update()
+    write_atomically(path, resize.GetOutput(), vtkPNGWriter())
+
+
 class Picture:
     """A render window with a surface, seen from where it is touched."""
 
@@ -42,7 +96,7 @@ class Picture:
         self.renderer.SetBackground2(*BACKGROUND[1])
         self.renderer.GradientBackgroundOn()
         self.surface_actor = self._add_surface(surface)
-        self._light()
+        add_lights(self.renderer)
         self._aim(view, surface)
         self.add_text(title, 0.95, 20)
         self.window = vtkRenderWindow()
@@ -53,40 +107,9 @@ class Picture:
         self.window.AddRenderer(self.renderer)
 
     def _add_surface(self, surface):
-        normals = vtkPolyDataNormals()
-        normals.SetInputData(surface)
-        normals.SetFeatureAngle(35.0)
-        normals.ConsistencyOff()
-        mapper = vtkPolyDataMapper()
-        mapper.SetInputConnection(normals.GetOutputPort())
-        mapper.ScalarVisibilityOff()
-        actor = vtkActor()
-        actor.SetMapper(mapper)
-        look = actor.GetProperty()
-        look.SetColor(0.74, 0.80, 0.86)
-        look.SetAmbient(0.12)
-        look.SetDiffuse(0.85)
-        look.SetSpecular(0.22)
-        look.SetSpecularPower(24.0)
+        actor = surface_actor(surface)
         self.renderer.AddActor(actor)
         return actor
-
-    def _light(self):
-        """A warm key from the upper left, a cool fill from the right, a rim from behind."""
-        self.renderer.AutomaticLightCreationOff()
-        self.renderer.RemoveAllLights()
-        for position, color, intensity in (
-            ((-0.9, 1.1, 1.1), (1.0, 0.97, 0.92), 1.0),
-            ((1.2, 0.1, 0.7), (0.86, 0.92, 1.0), 0.5),
-            ((0.2, 0.9, -1.0), (1.0, 1.0, 1.0), 0.35),
-        ):
-            light = vtkLight()
-            light.SetLightTypeToCameraLight()
-            light.SetPosition(*position)
-            light.SetFocalPoint(0.0, 0.0, 0.0)
-            light.SetColor(*color)
-            light.SetIntensity(intensity)
-            self.renderer.AddLight(light)
 
     def _aim(self, view, surface):
         """Fills the picture with the surface, as seen along the view."""
@@ -165,17 +188,7 @@ class Picture:
         return share_of_height * 2.0 * camera.GetDistance() * half
 
     def save(self, path):
-        """Writes a PNG, drawn at twice the size and averaged down for clean edges."""
-        self.window.Render()
-        shot = vtkWindowToImageFilter()
-        shot.SetInput(self.window)
-        shot.SetScale(2)
-        shot.ReadFrontBufferOff()
-        resize = vtkImageResize()
-        resize.SetInputConnection(shot.GetOutputPort())
-        resize.SetOutputDimensions(*self.window.GetSize(), 1)
-        resize.Update()
-        write_atomically(path, resize.GetOutput(), vtkPNGWriter())
+        save_window(self.window, path)
 
 
 def _force_colors(strongest):

@@ -12,6 +12,9 @@ import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import mutable, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData, vtkStaticCellLocator
+from vtkmodules.vtkCommonMath import vtkMatrix4x4
+from vtkmodules.vtkCommonTransforms import vtkTransform
+from vtkmodules.vtkFiltersGeneral import vtkTransformPolyDataFilter
 
 MAP_SIZE = 64  # rays across the map
 CURVE_SAMPLES = 480
@@ -170,6 +173,21 @@ def plan_stroke(surface, seconds):
     known = np.flatnonzero(np.isfinite(height))
     height = np.interp(np.arange(samples), known, height[known], period=samples)
     return Plan(view, seconds, u, v, height)
+
+
+def in_device_frame(path, to_world):
+    """A copy of a path in the world frame, in the frame of a device whose workspace transform is
+    the vtkMatrix4x4 `to_world`."""
+    to_device = vtkMatrix4x4()
+    vtkMatrix4x4.Invert(to_world, to_device)
+    transform = vtkTransform()
+    transform.SetMatrix(to_device)
+    mapped = vtkTransformPolyDataFilter()
+    mapped.SetTransform(transform)
+    mapped.SetInputData(path)
+    mapped.SetOutputPointsPrecision(1)  # float64
+    mapped.Update()
+    return mapped.GetOutput()
 
 
 def _polyline(points, time):

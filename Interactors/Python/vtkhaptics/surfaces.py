@@ -3,6 +3,10 @@
 import os
 import re
 
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkSTLReader
 from vtkmodules.vtkIOLegacy import vtkPolyDataReader
 from vtkmodules.vtkIOPLY import vtkPLYReader
@@ -16,6 +20,8 @@ READERS = {
     ".vtk": vtkPolyDataReader,
 }
 
+FORMATS = sorted([*READERS, ".gii"])
+
 # With expat 2.6, or an older one that Debian mended against the same attack, VTK 9.1 and 9.2 stop
 # with an XML error at the appended data of all but the smallest files.
 APPENDED_DATA_HINT = (
@@ -28,7 +34,11 @@ class SurfaceError(Exception):
     """What is wrong with a file, where, and what to do; for people."""
 
 
-def _run(reader):
+LARGEST_SHARE = 0.5  # of the memory: what triangles and engine of a file may take
+MEMORY_FACTOR = 12.0  # what they take at most, in lengths of a binary file
+
+
+def _run(reader, progress):
     """Updates the reader and returns what it complained of, most telling first."""
     errors, warnings, failures = [], [], []
 
@@ -43,6 +53,8 @@ def _run(reader):
     reader.AddObserver("ErrorEvent", listener(errors))
     reader.AddObserver("WarningEvent", listener(warnings))
     reader.GetExecutive().AddObserver("ErrorEvent", listener(failures))
+    if progress:
+        reader.AddObserver("ProgressEvent", lambda caller, _event: progress(caller.GetProgress()))
     reader.Update()
     if errors:
         return errors
@@ -56,8 +68,73 @@ def _has_appended_data(path):
         return b"<AppendedData" in file.read()
 
 
-def read_surface(path):
+def _refuse_enormous(path):
+    """Says so before the memory is full."""
+    try:
+        memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    except (AttributeError, ValueError):
+        return  # a system that does not tell
+    size = os.path.getsize(path)
+    if size * MEMORY_FACTOR > memory * LARGEST_SHARE:
+        raise SurfaceError(
+            f"{path}: {size / 2**30:.1f} GB would take more than half of the memory "
+            f"({memory / 2**30:.1f} GB) once triangulated. Decimate it first, for example with "
+            "vtkQuadricDecimation, or cut out the part to touch."
+        )
+
+
+def _read_gifti(path):
+    """The mesh in a GIfTI file, through nibabel, with the other arrays of the file that fit."""
+    try:
+        import nibabel
+    except ImportError as error:
+        raise SurfaceError(
+            f"{path}: GIfTI needs nibabel. Install it (Debian: apt-get install python3-nibabel)."
+        ) from error
+    try:
+        image = nibabel.load(path)
+        points, triangles = image.agg_data(("pointset", "triangle"))
+    except Exception as error:  # nibabel's own, expat's, zlib's and OSError: all mean the file
+        raise SurfaceError(
+            f"{path}: could not be read as GIfTI: {error}. Check that the file is whole."
+        ) from error
+    if not len(points) or not len(triangles):
+        raise SurfaceError(
+            f"{path}: has no mesh, only values. Give the surface's file (such as pial.gii)."
+        )
+    surface = vtkPolyData()
+    vtk_points = vtkPoints()
+    vtk_points.SetData(numpy_to_vtk(np.ascontiguousarray(points), deep=True))
+    surface.SetPoints(vtk_points)
+    cells = vtkCellArray()
+    offsets = np.arange(0, 3 * len(triangles) + 1, 3, dtype=np.int64)
+    cells.SetData(
+        numpy_to_vtkIdTypeArray(offsets, deep=True),
+        numpy_to_vtkIdTypeArray(np.ravel(triangles).astype(np.int64), deep=True),
+    )
+    surface.SetPolys(cells)
+    for array in image.darrays:
+        if array.data.ndim == 1 and len(array.data) == len(points):
+            values = numpy_to_vtk(np.ascontiguousarray(array.data), deep=True)
+            values.SetName(array.meta.get("Name") or "values")
+            surface.GetPointData().AddArray(values)
+    return surface
+
+
+def unit_note(path, surface):
+    """One line about the size of a surface, and that its unit is not known where it is not."""
+    low, high = surface.GetBounds()[::2], surface.GetBounds()[1::2]
+    size = " x ".join(f"{b - a:.4g}" for a, b in zip(low, high))
+    return (
+        f"{os.path.basename(path)}: {surface.GetNumberOfCells():,} cells, {size} in the file's own "
+        "length unit (it names none; the hand's space is fitted to it)"
+    )
+
+
+def read_surface(path, progress=None):
     """The vtkPolyData in a file of one of READERS' formats, in the file's own length unit.
+
+    `progress` is called with 0 to 1 while the file is read.
 
     Raises SurfaceError where the file is missing, unreadable, of another format, or holds no
     polygons or strips.
@@ -66,15 +143,18 @@ def read_surface(path):
         raise SurfaceError(f"{path}: there is no such file. Check the path.")
     if not os.access(path, os.R_OK):
         raise SurfaceError(f"{path}: may not be read. Check the file's permissions.")
-    extension = os.path.splitext(path)[1].lower()
+    extension = os.path.splitext(path.lower().removesuffix(".gz"))[1]
+    if extension == ".gii":
+        return _read_gifti(path)
     if extension not in READERS:
         raise SurfaceError(
             f"{path}: files of type '{extension}' are not known. "
-            f"Convert it to one of {', '.join(sorted(READERS))}."
+            f"Convert it to one of {', '.join(FORMATS)}."
         )
+    _refuse_enormous(path)
     reader = READERS[extension]()
     reader.SetFileName(path)
-    errors = _run(reader)
+    errors = _run(reader, progress)
     if errors:
         raise SurfaceError(
             f"{path}: could not be read as {extension[1:].upper()}: {errors[0]} "

@@ -1,0 +1,30 @@
+"""Finds out whether this VTK can draw here, and borrows a virtual display where it cannot."""
+
+import os
+import shutil
+import sys
+
+from vtkmodules.vtkRenderingCore import vtkRenderWindow
+
+
+class DisplayError(Exception):
+    """Why nothing can be drawn and what to do, for people."""
+
+
+def needs_display():
+    """Whether this VTK can only draw with an X server, and there is none."""
+    return vtkRenderWindow().IsA("vtkXOpenGLRenderWindow") and not os.environ.get("DISPLAY")
+
+
+def ensure_display(module, arguments):
+    """Where VTK can only draw with an X server and there is none, runs the module again under a
+    virtual one, and does not return. Raises DisplayError where there is none to be had."""
+    if not needs_display():
+        return
+    xvfb = shutil.which("xvfb-run")
+    if not xvfb:
+        raise DisplayError(
+            "this VTK needs an X server to draw, and DISPLAY is not set. "
+            "Install xvfb (Debian: apt-get install xvfb xauth) and try again."
+        )
+    os.execv(xvfb, [xvfb, "-a", sys.executable, "-m", module, *arguments])
