@@ -66,6 +66,11 @@ int MillisecondsUntil(Clock::time_point end)
   return static_cast<int>(std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now()).count());
 }
 
+timeval Timeval(long milliseconds)
+{
+  return { milliseconds / 1000, milliseconds % 1000 * 1000 };
+}
+
 struct DeviceListDeleter
 {
   void operator()(libusb_device** list) const { libusb_free_device_list(list, 1); }
@@ -90,7 +95,7 @@ FalconUsb::Transfer::~Transfer()
     libusb_cancel_transfer(this->Handle);
     while (!this->Done)
     {
-      timeval wait{ 0, StopCheck * 1000 };
+      timeval wait = Timeval(StopCheck);
       libusb_handle_events_timeout_completed(this->Usb.Context, &wait, &this->Done);
     }
   }
@@ -123,7 +128,7 @@ int FalconUsb::Transfer::Wait()
   while (!this->Done)
   {
     this->Usb.CheckStop(); // whoever destroys this transfer then cancels it
-    timeval wait{ 0, StopCheck * 1000 };
+    timeval wait = Timeval(StopCheck);
     libusb_handle_events_timeout_completed(this->Usb.Context, &wait, &this->Done);
   }
   return this->Handle->status;
@@ -190,6 +195,7 @@ std::vector<libusb_device*> FalconUsb::FindDevices() const
   std::sort(
     found.begin(), found.end(), [](const Found& a, const Found& b) { return a.Place < b.Place; });
   std::vector<libusb_device*> devices;
+  devices.reserve(found.size());
   for (const Found& one : found)
   {
     devices.push_back(one.Device);
@@ -260,7 +266,7 @@ void FalconUsb::HandleEvents(int duration)
     {
       return;
     }
-    timeval wait{ 0, std::min(rest, StopCheck) * 1000 };
+    timeval wait = Timeval(std::min(rest, StopCheck));
     libusb_handle_events_timeout(this->Context, &wait);
   }
 }

@@ -21,6 +21,14 @@ class FalconBench : public testing::Test
 protected:
   FalconBench() { this->Watch(this->Device, this->Events); }
 
+  void SetUp() override
+  {
+    if (!UsbFs::IsPossible())
+    {
+      GTEST_SKIP() << "There are no pseudo-terminals here: mount devpts at /dev/pts.";
+    }
+  }
+
   /// Notes states and errors of a device, and keeps errors from the test's output.
   struct Log
   {

@@ -78,6 +78,19 @@ UsbFs::~UsbFs()
   g_object_unref(this->Bed);
 }
 
+bool UsbFs::IsPossible()
+{
+  int master = -1;
+  int slave = -1;
+  if (openpty(&master, &slave, nullptr, nullptr, nullptr) != 0)
+  {
+    return false;
+  }
+  close(master);
+  close(slave);
+  return true;
+}
+
 UsbFs::Device& UsbFs::Find(int port)
 {
   const auto found = std::find_if(this->Devices.begin(), this->Devices.end(),

@@ -27,6 +27,9 @@ class UsbFs
 public:
   UsbFs();
   ~UsbFs();
+  /// False where there are no pseudo-terminals, as in a bare chroot: nothing can be plugged in
+  /// then.
+  static bool IsPossible();
   UsbFs(const UsbFs&) = delete;
   UsbFs& operator=(const UsbFs&) = delete;
 
