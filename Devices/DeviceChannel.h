@@ -48,6 +48,9 @@ public:
     return false;
   }
 
+  /// A servo begins a run: its time starts at 0 again. GUI thread, before the servo thread starts.
+  virtual void Restart() noexcept {}
+
   ///@{
   /// No force from now on, whatever is written, until Resume(): the servo hangs and cannot write
   /// itself. Halt() is called from a watchdog's thread at any time, Resume() from the servo thread.

@@ -42,6 +42,7 @@ void ServoCycle::Begin(std::shared_ptr<DeviceChannel> channel, ServoState state)
   }
   this->Lost.store(0, std::memory_order_relaxed);
   this->Channel = std::move(channel);
+  this->Channel->Restart();
   this->Channel->Resume(); // a watchdog may have halted it in the run before
   this->Now = TickRecord();
   this->IsFirst = true;

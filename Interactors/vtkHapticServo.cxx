@@ -1,11 +1,6 @@
 #include "vtkHapticServo.h"
 
-#include "DeviceChannel.h"
-#include "MonotonicClock.h"
-#include "RealTimePriority.h"
-#include "ServoCycle.h"
-#include "ServoLoop.h"
-#include "ServoStatistics.h"
+#include "HapticServoInternals.h"
 
 #include "StiffnessLimit.h"
 #include "vtkHapticSafety.h"
@@ -21,9 +16,6 @@
 
 namespace
 {
-constexpr std::size_t RecordsKept = 16384;
-constexpr double NanosecondsInSecond = 1e9;
-
 static_assert(static_cast<int>(haptics::ServoState::Stalled) == vtkHapticServo::Stalled &&
     static_cast<int>(haptics::ServoState::DeviceLost) == vtkHapticServo::DeviceLost &&
     static_cast<int>(haptics::ServoState::Stepping) == vtkHapticServo::Stepping &&
@@ -59,15 +51,6 @@ const char* Explain(int state)
   }
 }
 }
-
-class vtkHapticServo::Internals
-{
-public:
-  haptics::ServoCycle Cycle{ RecordsKept };
-  haptics::ServoStatistics Statistics;
-  haptics::ServoLoop Loop{ this->Cycle, this->Statistics }; // last: ends before the others
-  haptics::ServoSettings Settings;
-};
 
 vtkStandardNewMacro(vtkHapticServo);
 
@@ -214,114 +197,6 @@ void vtkHapticServo::Configure()
   this->Internal->Cycle.Configure(this->Internal->Settings);
 }
 
-bool vtkHapticServo::Begin(int state)
-{
-  if (!this->Device || !this->Device->IsOpen())
-  {
-    this->Fail(this->Device ? "The device is not open. Call its Open() first."
-                            : "There is no device. Call SetDevice() first.");
-    return false;
-  }
-  this->Stop();
-  this->Internal->Settings.Safety.NominalPeriod = 1.0 / this->Rate;
-  this->Configure(); // the device's limits may be others since it was opened
-  this->Internal->Statistics.Clear();
-  this->Internal->Cycle.Begin(this->Device->GetChannel(), static_cast<haptics::ServoState>(state));
-  this->ErrorMessage.clear();
-  return true;
-}
-
-bool vtkHapticServo::Start()
-{
-  if (this->IsRunning())
-  {
-    return true;
-  }
-  if (!this->Begin(Running))
-  {
-    return false;
-  }
-  haptics::ServoTiming timing;
-  timing.Period = static_cast<std::uint64_t>(std::llround(NanosecondsInSecond / this->Rate));
-  timing.StallLimit =
-    static_cast<std::uint64_t>(std::llround(NanosecondsInSecond * this->StallLimit));
-  timing.WatchdogTime =
-    static_cast<std::uint64_t>(std::llround(NanosecondsInSecond * this->Safety->GetWatchdogTime()));
-  timing.MissedShare = this->Safety->GetMissedTickShare();
-  timing.RealTimePriority = this->RealTimePriority;
-  timing.DevicePaced = this->DevicePaced;
-  std::string error;
-  if (!this->Internal->Loop.Start(timing, error))
-  {
-    this->Internal->Cycle.End(haptics::ServoState::Stopped);
-    this->Fail(error);
-    return false;
-  }
-  this->PriorityNote = this->RealTimePriority
-    ? haptics::DescribePriority(this->Internal->Loop.GetPriorityResult())
-    : "Real-time priority was not asked for.";
-  this->NoticeState(Running);
-  return true;
-}
-
-void vtkHapticServo::Stop()
-{
-  this->Internal->Loop.Stop();
-  if (this->Internal->Cycle.GetState() == haptics::ServoState::Stepping)
-  {
-    this->Internal->Cycle.End(haptics::ServoState::Stopped);
-  }
-  this->Update();
-}
-
-int vtkHapticServo::Step(int n)
-{
-  if (this->IsRunning())
-  {
-    this->Fail("The servo is running on its own thread. Call Stop() before Step().");
-    return 0;
-  }
-  if (n < 0)
-  {
-    this->Fail("The number of steps must not be below 0, but is " + std::to_string(n) + ".");
-    return 0;
-  }
-  if (this->Internal->Cycle.GetState() != haptics::ServoState::Stepping)
-  {
-    if (!this->Begin(Stepping))
-    {
-      return 0;
-    }
-    this->NextStep = 0;
-    this->StepPeriod = 1.0 / this->Rate;
-  }
-
-  haptics::DeviceChannel& channel = this->Internal->Cycle.GetChannel();
-  int done = 0;
-  for (; done < n; ++done)
-  {
-    double time = 0.0;
-    const bool deviceTime = channel.NextTime(time);
-    if (!deviceTime)
-    {
-      time = static_cast<double>(this->NextStep) * this->StepPeriod;
-    }
-    const double period = deviceTime ? time - this->LastStepTime : this->StepPeriod;
-    const std::uint64_t before = haptics::MonotonicNow();
-    if (!this->Internal->Cycle.Tick(time))
-    {
-      break;
-    }
-    this->Internal->Statistics.AddTick(
-      static_cast<std::uint64_t>(std::llround(NanosecondsInSecond * std::max(0.0, period))),
-      haptics::MonotonicNow() - before);
-    this->LastStepTime = time;
-    ++this->NextStep;
-  }
-  this->Update();
-  return done;
-}
-
 bool vtkHapticServo::IsRunning()
 {
   return this->Internal->Cycle.GetState() == haptics::ServoState::Running;
@@ -337,6 +212,10 @@ bool vtkHapticServo::Update()
   // The state is read first, so that the record of an end is there when the state tells of it.
   const int state = static_cast<int>(this->Internal->Cycle.GetState());
   const bool hasTicked = this->Internal->Cycle.UpdateLatest();
+  if (state != Running && state != Stepping)
+  {
+    this->FinishRecording();
+  }
   return this->NoticeState(state) || hasTicked;
 }
 

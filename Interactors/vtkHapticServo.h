@@ -158,6 +158,23 @@ public:
   void GetWorkspaceTransform(vtkMatrix4x4* deviceToWorld);
   ///@}
 
+  ///@{
+  /**
+   * A file to record every tick to, as it happens: position, buttons, force, time. Empty by
+   * default: nothing is recorded. Read by Start() and the first Step(), which replace a file of
+   * that name, and fail where it cannot be written. What vtkRecordedHapticDevice plays back. The
+   * servo thread writes nothing itself; the file is whole after Stop(), or up to 10 ms before a
+   * crash. A disk that fills up is an error, and the servo goes on.
+   */
+  vtkSetMacro(RecordingFileName, std::string);
+  vtkGetMacro(RecordingFileName, std::string);
+  ///@}
+  ///@{
+  /// Ticks of this run or the last one that are in the file, and that could not be kept for it.
+  vtkTypeInt64 GetNumberOfRecordedTicks();
+  vtkTypeInt64 GetNumberOfUnrecordedTicks();
+  ///@}
+
   /// At the next tick the god-object starts anew at the HIP, as in free space.
   void PlaceGodObject();
 
@@ -284,6 +301,8 @@ private:
   void Configure(); // hands all settings to the servo thread
   void Fail(const std::string& message);
   bool NoticeState(int state);
+  void FinishRecording();
+  void CountRecordedTicks();
 
   std::unique_ptr<Internals> Internal;
   vtkSmartPointer<vtkHapticDevice> Device;
@@ -301,6 +320,9 @@ private:
   double LastStepTime = 0.0; // [s]
   std::string ErrorMessage;
   std::string PriorityNote;
+  std::string RecordingFileName;
+  vtkTypeInt64 RecordedTicks = 0;
+  vtkTypeInt64 UnrecordedTicks = 0;
 };
 
 #endif

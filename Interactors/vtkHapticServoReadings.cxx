@@ -199,6 +199,7 @@ void vtkHapticServo::PrintSelf(ostream& os, vtkIndent indent)
      << this->GetEffectiveMaximumForce() << " N\n";
   os << indent << "Paused: " << (this->Paused ? "yes" : "no") << "\n";
   os << indent << "DevicePaced: " << (this->DevicePaced ? "on" : "off") << "\n";
+  os << indent << "RecordingFileName: " << this->RecordingFileName << "\n";
   os << indent << "State: " << this->GetStateAsString() << "\n";
   os << indent << "ErrorMessage: " << this->ErrorMessage << "\n";
   print("HapticInterfacePoint", tick.Hip, "");

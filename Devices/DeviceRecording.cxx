@@ -1,0 +1,264 @@
+#include "DeviceRecording.h"
+
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+namespace haptics
+{
+namespace
+{
+using Bytes = std::vector<unsigned char>;
+
+constexpr char Magic[] = "VTKHAPT1";
+constexpr std::size_t MagicSize = sizeof(Magic) - 1;
+constexpr std::size_t ChecksumSize = 4;
+constexpr std::size_t HeaderSize = MagicSize + 11 * 8 + 2 * 4 + ChecksumSize;
+constexpr std::uint32_t RecordSize = 2 * 8 + 6 * 8 + 4 + ChecksumSize;
+
+/// CRC-32 as in ISO 3309 and zip files.
+std::uint32_t Checksum(const unsigned char* bytes, std::size_t size)
+{
+  std::uint32_t crc = 0xffffffffU;
+  for (std::size_t i = 0; i < size; ++i)
+  {
+    crc ^= bytes[i];
+    for (int bit = 0; bit < 8; ++bit)
+    {
+      crc = (crc >> 1) ^ (0xedb88320U & (0U - (crc & 1U)));
+    }
+  }
+  return ~crc;
+}
+
+template <typename Integer>
+void Put(Bytes& bytes, Integer value)
+{
+  for (std::size_t i = 0; i < sizeof(Integer); ++i)
+  {
+    bytes.push_back(static_cast<unsigned char>(value >> (8 * i)));
+  }
+}
+
+void Put(Bytes& bytes, double value)
+{
+  std::uint64_t bits;
+  std::memcpy(&bits, &value, sizeof(bits));
+  Put(bytes, bits);
+}
+
+template <std::size_t N>
+void Put(Bytes& bytes, const std::array<double, N>& values)
+{
+  for (const double value : values)
+  {
+    Put(bytes, value);
+  }
+}
+
+void PutChecksum(Bytes& bytes, std::size_t begin)
+{
+  Put(bytes, Checksum(bytes.data() + begin, bytes.size() - begin));
+}
+
+/// Takes values off the front of a record.
+class Taker
+{
+public:
+  explicit Taker(const unsigned char* bytes)
+    : Next(bytes)
+  {
+  }
+  template <typename Integer>
+  void Take(Integer& value)
+  {
+    value = 0;
+    for (std::size_t i = 0; i < sizeof(Integer); ++i)
+    {
+      value |= static_cast<Integer>(*this->Next++) << (8 * i);
+    }
+  }
+  void Take(double& value)
+  {
+    std::uint64_t bits = 0;
+    this->Take(bits);
+    std::memcpy(&value, &bits, sizeof(value));
+  }
+  template <std::size_t N>
+  void Take(std::array<double, N>& values)
+  {
+    for (double& value : values)
+    {
+      this->Take(value);
+    }
+  }
+
+private:
+  const unsigned char* Next;
+};
+
+/// Whether the last four of the bytes are the checksum of those before.
+bool IsWhole(const unsigned char* bytes, std::size_t size)
+{
+  std::uint32_t told = 0;
+  Taker(bytes + size - ChecksumSize).Take(told);
+  return told == Checksum(bytes, size - ChecksumSize);
+}
+
+std::string SystemError()
+{
+  return std::generic_category().message(errno);
+}
+}
+
+RecordingWriter::RecordingWriter() = default;
+
+RecordingWriter::~RecordingWriter()
+{
+  std::string ignored; // who wants to know calls Close()
+  this->Close(ignored);
+}
+
+bool RecordingWriter::Open(
+  const std::string& fileName, const RecordingHeader& header, std::string& error)
+{
+  if (!this->Close(error))
+  {
+    return false;
+  }
+  this->FileName = fileName;
+  this->File = std::fopen(fileName.c_str(), "wb");
+  if (!this->File)
+  {
+    error = "The recording " + fileName + " cannot be written: " + SystemError() + ".";
+    return false;
+  }
+  this->Bytes.assign(Magic, Magic + MagicSize);
+  Put(this->Bytes, RecordSize);
+  Put(this->Bytes, header.Rate);
+  Put(this->Bytes, header.MaximumForce);
+  Put(this->Bytes, header.MaximumStiffness);
+  Put(this->Bytes, header.Damping);
+  Put(this->Bytes, header.Latency);
+  Put(this->Bytes, header.WorkspaceBounds);
+  Put(this->Bytes, header.NumberOfButtons);
+  PutChecksum(this->Bytes, 0);
+  return this->Write({}, error);
+}
+
+bool RecordingWriter::Write(const std::vector<RecordedTick>& ticks, std::string& error)
+{
+  if (!this->File)
+  {
+    error = "No recording is open. Call Open() first.";
+    return false;
+  }
+  for (const RecordedTick& tick : ticks)
+  {
+    const std::size_t begin = this->Bytes.size();
+    Put(this->Bytes, tick.Tick);
+    Put(this->Bytes, tick.Time);
+    Put(this->Bytes, tick.Position);
+    Put(this->Bytes, tick.Force);
+    Put(this->Bytes, tick.Buttons);
+    PutChecksum(this->Bytes, begin);
+  }
+  const bool isWritten =
+    std::fwrite(this->Bytes.data(), 1, this->Bytes.size(), this->File) == this->Bytes.size() &&
+    std::fflush(this->File) == 0;
+  this->Bytes.clear();
+  if (!isWritten)
+  {
+    error = "The recording " + this->FileName + " cannot be written on: " + SystemError() + ".";
+  }
+  return isWritten;
+}
+
+bool RecordingWriter::Close(std::string& error)
+{
+  std::FILE* file = this->File;
+  this->File = nullptr;
+  if (file && std::fclose(file) != 0)
+  {
+    error =
+      "The end of the recording " + this->FileName + " was not written: " + SystemError() + ".";
+    return false;
+  }
+  return true;
+}
+
+bool ReadRecording(const std::string& fileName, Recording& recording, std::string& error)
+{
+  const auto fail = [&](const std::string& cause)
+  {
+    error = "The recording " + fileName + " " + cause;
+    return false;
+  };
+  const auto close = [](std::FILE* file) { std::fclose(file); };
+  const std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(fileName.c_str(), "rb"), close);
+  if (!file)
+  {
+    return fail("cannot be opened: " + SystemError() + ".");
+  }
+
+  std::array<unsigned char, HeaderSize> head{};
+  const std::size_t headSize = std::fread(head.data(), 1, head.size(), file.get());
+  if (headSize < MagicSize || std::memcmp(head.data(), Magic, MagicSize) != 0)
+  {
+    return fail("is none: it does not begin with " + std::string(Magic) + ".");
+  }
+  if (headSize < head.size() || !IsWhole(head.data(), head.size()))
+  {
+    return fail("is damaged in its header. Nothing of it can be read.");
+  }
+  Recording read;
+  std::uint32_t recordSize = 0;
+  Taker header(head.data() + MagicSize);
+  header.Take(recordSize);
+  header.Take(read.Header.Rate);
+  header.Take(read.Header.MaximumForce);
+  header.Take(read.Header.MaximumStiffness);
+  header.Take(read.Header.Damping);
+  header.Take(read.Header.Latency);
+  header.Take(read.Header.WorkspaceBounds);
+  header.Take(read.Header.NumberOfButtons);
+  if (recordSize != RecordSize)
+  {
+    return fail("was made by another version: its records have " + std::to_string(recordSize) +
+      " bytes, not " + std::to_string(RecordSize) + ".");
+  }
+
+  std::array<unsigned char, RecordSize> bytes{};
+  std::size_t size = 0;
+  while ((size = std::fread(bytes.data(), 1, bytes.size(), file.get())) == bytes.size() &&
+    IsWhole(bytes.data(), bytes.size()))
+  {
+    RecordedTick tick;
+    Taker record(bytes.data());
+    record.Take(tick.Tick);
+    record.Take(tick.Time);
+    record.Take(tick.Position);
+    record.Take(tick.Force);
+    record.Take(tick.Buttons);
+    read.Ticks.push_back(tick);
+  }
+  if (std::ferror(file.get()) != 0)
+  {
+    return fail("cannot be read on after " + std::to_string(read.Ticks.size()) +
+      " ticks: " + SystemError() + ".");
+  }
+  if (read.Ticks.empty())
+  {
+    return fail("has no whole tick.");
+  }
+  if (size != 0)
+  {
+    read.Note = "The recording " + fileName +
+      (size < bytes.size() ? " is cut off" : " is damaged") + " after " +
+      std::to_string(read.Ticks.size()) + " whole ticks (" +
+      std::to_string(read.Ticks.back().Time) + " s); it was read up to there.";
+  }
+  recording = std::move(read);
+  return true;
+}
+}

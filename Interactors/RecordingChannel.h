@@ -1,0 +1,86 @@
+#ifndef RecordingChannel_h
+#define RecordingChannel_h
+
+#include "DeviceChannel.h"
+#include "DeviceRecording.h"
+#include "RingBuffer.h"
+#include "vtkHapticsInteractorsModule.h"
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+namespace haptics
+{
+/// @brief Stands between a servo and a device and records every tick to a file.
+///
+///     servo --Read, Write--> RecordingChannel --> device
+///                                 |  ring of 16,384 ticks, wait-free
+///                                 v
+///                           a thread of its own --> file, every 10 ms
+///
+/// The servo thread never writes a file and never waits. Ticks that come while the ring is full
+/// (a disk that takes no data for 16 s at 1 kHz) are counted and left out.
+class VTKHAPTICSINTERACTORS_EXPORT RecordingChannel : public DeviceChannel
+{
+public:
+  explicit RecordingChannel(std::shared_ptr<DeviceChannel> device);
+  /// Finishes.
+  ~RecordingChannel() override;
+
+  ///@{
+  /// GUI thread. Start() makes the file and the thread; false with the cause in `error`. Finish()
+  /// writes what is left, once no servo uses the channel any more; false with the cause in `error`
+  /// where anything could not be written since Start(). The channel goes on without recording.
+  bool Start(const std::string& fileName, const RecordingHeader& header, std::string& error);
+  bool Finish(std::string& error);
+  ///@}
+  ///@{
+  /// Ticks written to the file, and ticks that could not be kept. Any thread.
+  std::uint64_t GetNumberOfTicks() const noexcept { return this->Written.load(); }
+  std::uint64_t GetNumberOfLostTicks() const noexcept { return this->Lost.load(); }
+  ///@}
+
+  bool Read(double time, DeviceSample& sample) noexcept override;
+  void Write(const std::array<double, 3>& force) noexcept override;
+  bool SetsPace() const noexcept override { return this->Device->SetsPace(); }
+  bool WaitForSample(std::uint64_t timeout) noexcept override
+  {
+    return this->Device->WaitForSample(timeout);
+  }
+  bool NextTime(double& time) noexcept override { return this->Device->NextTime(time); }
+  void Restart() noexcept override { this->Device->Restart(); }
+  void Halt() noexcept override { this->Device->Halt(); }
+  void Resume() noexcept override { this->Device->Resume(); }
+
+private:
+  void Run();
+  bool Drain();
+
+  const std::shared_ptr<DeviceChannel> Device;
+  RingBuffer<RecordedTick> Ring;
+  std::atomic<std::uint64_t> Written{ 0 };
+  std::atomic<std::uint64_t> Lost{ 0 };
+
+  // The servo thread's own.
+  RecordedTick Now;
+  bool HasSample = false;
+  std::uint64_t NextTick = 0;
+
+  // The writing thread's own, while it runs.
+  RecordingWriter File;
+  std::vector<RecordedTick> Ticks;
+  std::string Error;
+
+  std::mutex Mutex;
+  std::condition_variable Ending;
+  bool End = false;
+  std::thread Thread;
+};
+}
+
+#endif

@@ -1,0 +1,224 @@
+#include "DeviceRecording.h"
+#include "MonitoredChannel.h"
+#include "vtkRecordedHapticDevice.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkNew.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <limits>
+
+using haptics::ReadRecording;
+using haptics::RecordedTick;
+using haptics::Recording;
+using haptics::RecordingHeader;
+using haptics::RecordingWriter;
+
+namespace
+{
+constexpr std::size_t HeaderSize = 108;
+constexpr std::size_t RecordSize = 72;
+
+/// Three ticks, with numbers that do not survive a detour through text.
+std::vector<RecordedTick> MakeTicks()
+{
+  std::vector<RecordedTick> ticks(3);
+  for (std::size_t i = 0; i < ticks.size(); ++i)
+  {
+    ticks[i].Tick = i;
+    ticks[i].Time = 0.001 * static_cast<double>(i) / 3.0;
+    ticks[i].Position = { 0.1 / 3.0, -0.0, std::numeric_limits<double>::denorm_min() };
+    ticks[i].Force = { 1e-300, std::nan(""), 2.0 / 3.0 };
+    ticks[i].Buttons = 0x80000001U + static_cast<std::uint32_t>(i);
+  }
+  return ticks;
+}
+
+std::string WriteTicks(const std::vector<RecordedTick>& ticks)
+{
+  const std::string name = "TestDeviceRecording.haptic";
+  RecordingHeader header;
+  header.Rate = 1000.0;
+  header.MaximumForce = 3.3;
+  header.Damping = 0.35;
+  header.WorkspaceBounds = { -1.0, 1.0, -2.0, 2.0, -3.0, 3.0 };
+  header.NumberOfButtons = 2;
+  RecordingWriter writer;
+  std::string error;
+  EXPECT_TRUE(writer.Open(name, header, error)) << error;
+  EXPECT_TRUE(writer.Write(ticks, error)) << error;
+  EXPECT_TRUE(writer.Close(error)) << error;
+  return name;
+}
+
+std::string Contents(const std::string& name)
+{
+  std::ifstream file(name, std::ios::binary);
+  return { std::istreambuf_iterator<char>(file), {} };
+}
+
+void Replace(const std::string& name, const std::string& contents)
+{
+  std::ofstream(name, std::ios::binary) << contents;
+}
+
+TEST(DeviceRecording, ComesBackBitForBit)
+{
+  const std::vector<RecordedTick> ticks = MakeTicks();
+  Recording read;
+  std::string error;
+  ASSERT_TRUE(ReadRecording(WriteTicks(ticks), read, error)) << error;
+  EXPECT_EQ(read.Note, "");
+  EXPECT_EQ(read.Header.MaximumForce, 3.3);
+  EXPECT_EQ(read.Header.WorkspaceBounds[5], 3.0);
+  EXPECT_EQ(read.Header.NumberOfButtons, 2u);
+  ASSERT_EQ(read.Ticks.size(), ticks.size());
+  for (std::size_t i = 0; i < ticks.size(); ++i)
+  {
+    EXPECT_EQ(read.Ticks[i].Tick, ticks[i].Tick);
+    EXPECT_EQ(read.Ticks[i].Time, ticks[i].Time);
+    EXPECT_EQ(std::memcmp(&read.Ticks[i].Position, &ticks[i].Position, 24), 0);
+    EXPECT_EQ(std::memcmp(&read.Ticks[i].Force, &ticks[i].Force, 24), 0);
+    EXPECT_EQ(read.Ticks[i].Buttons, ticks[i].Buttons);
+  }
+}
+
+TEST(DeviceRecording, CutOffAnywhereReadsToTheLastWholeTickAndSaysSo)
+{
+  const std::string name = WriteTicks(MakeTicks());
+  const std::string whole = Contents(name);
+  ASSERT_EQ(whole.size(), HeaderSize + 3 * RecordSize);
+  for (std::size_t size = 0; size < whole.size(); ++size)
+  {
+    Replace(name, whole.substr(0, size));
+    Recording read;
+    std::string error;
+    const std::size_t wholeTicks = size < HeaderSize ? 0 : (size - HeaderSize) / RecordSize;
+    ASSERT_EQ(ReadRecording(name, read, error), wholeTicks > 0) << size << " bytes";
+    ASSERT_EQ(read.Ticks.size(), wholeTicks) << size << " bytes";
+    ASSERT_EQ(error.empty(), wholeTicks > 0);
+    const bool isBetween = (size - HeaderSize) % RecordSize != 0;
+    ASSERT_EQ(read.Note.find("cut off") != std::string::npos, wholeTicks > 0 && isBetween);
+  }
+}
+
+TEST(DeviceRecording, ReadsUpToAFlippedBit)
+{
+  const std::string name = WriteTicks(MakeTicks());
+  const std::string whole = Contents(name);
+  for (std::size_t at = 0; at < whole.size(); ++at)
+  {
+    std::string damaged = whole;
+    damaged[at] = static_cast<char>(damaged[at] ^ 0x10);
+    Replace(name, damaged);
+    Recording read;
+    std::string error;
+    const std::size_t wholeTicks = at < HeaderSize ? 0 : (at - HeaderSize) / RecordSize;
+    ASSERT_EQ(ReadRecording(name, read, error), wholeTicks > 0) << "byte " << at;
+    ASSERT_EQ(read.Ticks.size(), wholeTicks) << "byte " << at;
+    ASSERT_EQ(read.Note.find("damaged") != std::string::npos, wholeTicks > 0) << "byte " << at;
+  }
+}
+
+TEST(DeviceRecording, RefusesWhatIsNoneAndTellsWhy)
+{
+  Recording read;
+  std::string error;
+  EXPECT_FALSE(ReadRecording("no-such-file.haptic", read, error));
+  EXPECT_NE(error.find("no-such-file.haptic"), std::string::npos);
+  Replace("TestDeviceRecording.haptic", "solid of an STL file, longer than the magic number");
+  EXPECT_FALSE(ReadRecording("TestDeviceRecording.haptic", read, error));
+  EXPECT_NE(error.find("is none"), std::string::npos) << error;
+  RecordingWriter writer;
+  EXPECT_FALSE(writer.Open("no-such-folder/a.haptic", {}, error));
+  EXPECT_NE(error.find("no-such-folder"), std::string::npos) << error;
+}
+
+/// Counts warnings or errors and keeps them out of the output.
+struct Listener
+{
+  Listener(vtkObject* object, unsigned long event)
+  {
+    this->Command->SetClientData(&this->Count);
+    this->Command->SetCallback(
+      [](vtkObject*, unsigned long, void* count, void*) { ++*static_cast<int*>(count); });
+    object->AddObserver(event, this->Command);
+  }
+  int Count = 0;
+  vtkNew<vtkCallbackCommand> Command;
+};
+
+TEST(RecordedHapticDevice, IsWhereTheHandWasAndStaysAtTheEnd)
+{
+  std::vector<RecordedTick> ticks(3);
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    ticks[i].Tick = i;
+    ticks[i].Time = 0.0013 * static_cast<double>(i); // no regular servo's times
+    ticks[i].Position = { static_cast<double>(i), 0.0, 0.0 };
+  }
+  vtkNew<vtkRecordedHapticDevice> device;
+  device->SetFileName(WriteTicks(ticks));
+  ASSERT_TRUE(device->Open()) << device->GetErrorMessage();
+  EXPECT_EQ(device->GetNumberOfTicks(), 3);
+  EXPECT_NEAR(device->GetDuration(), 0.0026, 1e-12);
+  EXPECT_EQ(device->GetMaximumForce(), 3.3);
+  EXPECT_EQ(device->GetNote(), "");
+  const auto channel = device->GetChannel();
+  haptics::DeviceSample sample;
+  for (int run = 0; run < 2; ++run)
+  {
+    channel->Restart();
+    const double expected[] = { 0.0, 0.0, 1.0, 2.0, 2.0 };
+    for (int tick = 0; tick < 5; ++tick)
+    {
+      ASSERT_TRUE(channel->Read(0.001 * tick, sample));
+      EXPECT_EQ(sample.Position[0], expected[tick]) << "tick " << tick;
+    }
+  }
+  channel->Restart();
+  double last = -1.0;
+  for (int tick = 0; tick < 5; ++tick)
+  {
+    double time = 0.0;
+    ASSERT_TRUE(channel->NextTime(time));
+    EXPECT_GT(time, last);
+    last = time;
+    ASSERT_TRUE(channel->Read(time, sample));
+    EXPECT_EQ(sample.Position[0], std::min(tick, 2)) << "tick " << tick;
+  }
+}
+
+TEST(RecordedHapticDevice, TellsOfACutOffAndOfTicksThatWereLost)
+{
+  std::vector<RecordedTick> ticks = MakeTicks();
+  ticks[1].Tick = 5;
+  const std::string name = WriteTicks(ticks);
+  const std::string whole = Contents(name);
+  Replace(name, whole.substr(0, whole.size() - 1));
+  vtkNew<vtkRecordedHapticDevice> device;
+  Listener warnings(device, vtkCommand::WarningEvent);
+  device->SetFileName(name);
+  ASSERT_TRUE(device->Open()) << device->GetErrorMessage();
+  EXPECT_EQ(warnings.Count, 1);
+  EXPECT_EQ(device->GetNumberOfTicks(), 2);
+  EXPECT_NE(device->GetNote().find("cut off"), std::string::npos) << device->GetNote();
+  EXPECT_NE(device->GetNote().find("4 ticks"), std::string::npos) << device->GetNote();
+}
+
+TEST(RecordedHapticDevice, StaysClosedWithoutARecording)
+{
+  vtkNew<vtkRecordedHapticDevice> device;
+  Listener errors(device, vtkCommand::ErrorEvent);
+  device->SetFileName("no-such-file.haptic");
+  EXPECT_FALSE(device->Open());
+  EXPECT_EQ(errors.Count, 1);
+  EXPECT_EQ(device->GetState(), vtkHapticDevice::Closed);
+  EXPECT_NE(std::string(device->GetErrorMessage()).find("no-such-file"), std::string::npos);
+}
+}
