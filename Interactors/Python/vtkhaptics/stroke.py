@@ -6,6 +6,7 @@ the surface, over few steps and cliffs, at the largest size, is taken. The hand 
 curve a little below the surface. The same surface always gives the same stroke.
 """
 
+import heapq
 import math
 
 import numpy as np
@@ -19,6 +20,8 @@ from vtkmodules.vtkFiltersGeneral import vtkTransformPolyDataFilter
 MAP_SIZE = 64  # rays across the map
 CURVE_SAMPLES = 480
 STEEP = 1.2  # rise over run that counts as a cliff
+CLIFF = 0.03  # of the view's radius: what a closer look takes for a cliff or the rim of a hole
+FINALISTS = 12  # curves of each view that are looked at more closely
 APPROACH = 0.4  # [s] to come down, and to lift off
 
 
@@ -89,13 +92,13 @@ def _score(view, grid, u, v):
     return 1.0 - 8.0 * missing - 15.0 * cliffs
 
 
-def _best_curve(view, locator):
-    """(score, u, v) of the best candidate seen from a view."""
+def _best_curves(view, locator):
+    """(score, u, v) of the best candidates seen from a view."""
     axis = np.linspace(-view.radius, view.radius, MAP_SIZE)
     columns, rows = np.meshgrid(axis, axis)
     grid = view.heights(locator, columns.ravel(), rows.ravel()).reshape(MAP_SIZE, MAP_SIZE)
     covered = np.isfinite(grid).mean()
-    best = (0.0, None, None)
+    found = []
     for size, u, v in _curves():
         for cu in np.linspace(-0.6, 0.6, 9):
             for cv in np.linspace(-0.6, 0.6, 9):
@@ -103,9 +106,19 @@ def _best_curve(view, locator):
                 good = _score(view, grid, u * view.radius + cu_, v * view.radius + cv_)
                 # Rather near the middle of the picture, and rather a view that shows much.
                 value = max(good, 0.0) ** 3 * size * (1.0 - 0.15 * math.hypot(cu, cv)) * math.sqrt(covered)
-                if value > best[0]:
-                    best = (value, u * view.radius + cu_, v * view.radius + cv_)
-    return best
+                if value > 0.0:
+                    found.append((value, u * view.radius + cu_, v * view.radius + cv_))
+    return heapq.nlargest(FINALISTS, found, key=lambda candidate: candidate[0])
+
+
+def _cliffs(view, locator, u, v):
+    """How many cliffs and rims of holes a curve crosses: the map may have missed narrow ones, and
+    a hand that has gone down a hole is caught under its rim."""
+    height = view.heights(locator, u, v)
+    height = np.where(np.isfinite(height), height, -2.0 * view.radius)
+    rise = np.abs(np.diff(height, append=height[0]))
+    run = np.hypot(np.diff(u, append=u[0]), np.diff(v, append=v[0]))
+    return np.count_nonzero(rise > CLIFF * view.radius + STEEP * run)
 
 
 def _smooth(values, width):
@@ -157,14 +170,16 @@ def plan_stroke(surface, seconds):
     locator.SetDataSet(surface)
     locator.BuildLocator()
     views = [View(surface, a, e) for e in (28, 55) for a in (-60, 30, 120, 210)]
-    value, view, (u, v) = max(
-        ((value, view, (u, v)) for view in views for value, u, v in [_best_curve(view, locator)]),
-        key=lambda found: found[0],
-    )
-    if value <= 0.0:
+    found = [
+        (value * 0.5 ** _cliffs(view, locator, u, v), view, u, v)
+        for view in views
+        for value, u, v in _best_curves(view, locator)
+    ]
+    if not found:
         raise StrokeError(
             "no part of the surface is large and smooth enough for a stroke. Try another surface."
         )
+    _, view, u, v = max(found, key=lambda candidate: candidate[0])
 
     samples = max(50, int(200 * (seconds - 2.0 * APPROACH)))
     s = np.linspace(0.0, CURVE_SAMPLES, samples, endpoint=False)
