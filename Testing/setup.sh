@@ -5,7 +5,7 @@ set -eu
 usage()
 {
   cat <<'END'
-Usage: sh Testing/setup.sh [--vtk] [--help]
+Usage: sh Testing/setup.sh [--vtk] [--slow] [--help]
 
 Installs the packages that are missing (Debian 12 and 13; with sudo where not root), configures and
 builds into build/, and leaves build/env.sh to source. What is done already is not done again.
@@ -13,14 +13,17 @@ builds into build/, and leaves build/env.sh to source. What is done already is n
   --vtk   build against VTK alone, without the ParaView plugin. Where ParaView's packages are
           installed, against the VTK that comes with them: Debian's two stacks exclude each other,
           and this script never removes a package.
+  --slow  install what the slow tests need as well: a virtual machine for the USB driver
 END
 }
 
 cd "$(dirname "$0")/.."
 preset=paraview
+slow=
 for argument in "$@"; do
   case $argument in
     --vtk) preset=vtk ;;
+    --slow) slow=yes ;;
     -h|--help) usage; exit 0 ;;
     *) echo "setup.sh: unknown argument '$argument'" >&2; usage >&2; exit 2 ;;
   esac
@@ -124,6 +127,7 @@ case $release in
       preset=vtk
       install_packages "Testing/packages-$release-vtk.txt"
     fi
+    [ -z "$slow" ] || install_packages Testing/packages-slow.txt
     ;;
   *)
     if [ $preset = paraview ] && ! command -v pvpython >/dev/null; then

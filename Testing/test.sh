@@ -5,24 +5,28 @@ set -eu
 usage()
 {
   cat <<'END'
-Usage: sh Testing/test.sh [--vtk] [--help] [CTEST-ARGUMENT...]
+Usage: sh Testing/test.sh [--vtk] [--slow] [--help] [CTEST-ARGUMENT...]
 
 Installs what is missing, builds into build/ and runs the tests, on a virtual display where there is
 none. Further arguments go to ctest: "-R Core" runs the tests with Core in their name.
 
   --vtk   against VTK alone, without the ParaView plugin (see Testing/setup.sh --help)
+  --slow  the slow tests too: the USB driver against a real kernel in a virtual machine
 END
 }
 
 cd "$(dirname "$0")/.."
 setup_arguments=
-if [ "${1:-}" = --vtk ]; then
-  setup_arguments=--vtk
+configuration=
+while :; do
+  case ${1:-} in
+    --vtk) setup_arguments="$setup_arguments --vtk" ;;
+    --slow) setup_arguments="$setup_arguments --slow"; configuration='-C Slow' ;;
+    -h|--help) usage; exit 0 ;;
+    *) break ;;
+  esac
   shift
-fi
-case ${1:-} in
-  -h|--help) usage; exit 0 ;;
-esac
+done
 
 sh Testing/setup.sh $setup_arguments
 
@@ -42,7 +46,7 @@ fi
 echo "==> Testing${display:+ on a virtual display}"
 status=0
 eval "$display" ctest --test-dir build --output-on-failure --no-label-summary --no-tests=error \
-  -j "$(nproc)" '"$@"' || status=$?
+  -j "$(nproc)" $configuration '"$@"' || status=$?
 if [ "$status" -ne 0 ]; then
   echo "==> Tests failed; all output: build/Testing/Temporary/LastTest.log" >&2
 fi
