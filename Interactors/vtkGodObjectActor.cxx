@@ -1,22 +1,23 @@
 #include "vtkGodObjectActor.h"
 
+#include "ForceColor.h"
 #include "vtkActor.h"
 #include "vtkCamera.h"
-#include "vtkCellArray.h"
 #include "vtkConeSource.h"
 #include "vtkCylinderSource.h"
 #include "vtkMath.h"
 #include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
-#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
 #include "vtkRenderer.h"
+#include "vtkScalarBarActor.h"
 #include "vtkShaderProperty.h"
 #include "vtkSphereSource.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 vtkStandardNewMacro(vtkGodObjectActor);
@@ -29,6 +30,7 @@ constexpr double ShaftRadius = 0.3;
 constexpr double TipRadius = 0.75;
 constexpr double TipLength = 2.0;
 constexpr double ReferenceArrowLength = 12.0;
+constexpr double DefaultSize = 0.012; // of the view's height
 
 bool AllFinite(const double v[3])
 {
@@ -52,8 +54,13 @@ void Give(vtkActor* part, vtkAlgorithmOutput* geometry, double red, double green
 
 /// Nearer than everything that is not drawn so, in unchanged order among what is. For opaque parts:
 /// the translucent passes of VTK go by the depth that a fragment had before.
-void DrawThroughSurfaces(vtkActor* part)
+void DrawThroughSurfaces(vtkActor* part, bool through)
 {
+  part->GetShaderProperty()->ClearAllFragmentShaderReplacements();
+  if (!through)
+  {
+    return;
+  }
   part->GetShaderProperty()->AddFragmentShaderReplacement(
     "//VTK::Depth::Impl", true, "gl_FragDepth = 0.001 * gl_FragCoord.z;\n", false);
 }
@@ -95,9 +102,7 @@ vtkGodObjectActor::vtkGodObjectActor()
   bar->SetResolution(24);
   Give(this->SpringPart, bar->GetOutputPort(), 0.85, 0.92, 1.0);
   Give(this->ForceShaftPart, bar->GetOutputPort(), 0.92, 0.22, 0.15);
-  DrawThroughSurfaces(this->GodObjectPart);
-  DrawThroughSurfaces(this->HapticInterfacePointPart);
-  DrawThroughSurfaces(this->SpringPart);
+  this->ShowThrough();
 
   vtkNew<vtkConeSource> tip;
   tip->SetDirection(0.0, 1.0, 0.0);
@@ -115,9 +120,29 @@ vtkGodObjectActor::vtkGodObjectActor()
   trail->SetColor(1.0, 0.62, 0.1);
   trail->SetLineWidth(3.0f);
   trail->RenderLinesAsTubesOn();
+  this->MakeMarks();
 }
 
 vtkGodObjectActor::~vtkGodObjectActor() = default;
+
+void vtkGodObjectActor::ShowThrough()
+{
+  for (vtkActor* part :
+    { this->GodObjectPart.Get(), this->HapticInterfacePointPart.Get(), this->SpringPart.Get() })
+  {
+    DrawThroughSurfaces(part, this->SeeThrough);
+  }
+}
+
+void vtkGodObjectActor::SetSeeThrough(bool through)
+{
+  if (through != this->SeeThrough)
+  {
+    this->SeeThrough = through;
+    this->ShowThrough();
+    this->Modified();
+  }
+}
 
 void vtkGodObjectActor::SetFinite(double target[3], const double value[3], const char* name)
 {
@@ -167,70 +192,6 @@ void vtkGodObjectActor::SetForce(double x, double y, double z)
   this->SetForce(force);
 }
 
-void vtkGodObjectActor::AddTrailPoint(const double point[3], bool touching)
-{
-  if (!this->ShowTrail)
-  {
-    return;
-  }
-  if (!AllFinite(point))
-  {
-    vtkErrorMacro("A trail point (" << point[0] << ", " << point[1] << ", " << point[2]
-                                    << ") is not finite; it was left out.");
-    return;
-  }
-  // Forgetting half at once keeps the cost of an added point constant.
-  if (this->TrailPoints.size() >= static_cast<std::size_t>(this->MaximumTrailPoints))
-  {
-    const auto kept = static_cast<std::ptrdiff_t>(this->MaximumTrailPoints / 2);
-    this->TrailPoints.erase(this->TrailPoints.begin(), this->TrailPoints.end() - kept);
-  }
-  this->TrailPoints.push_back({ { point[0], point[1], point[2] }, touching });
-  this->TrailChanged = true;
-  this->Modified();
-}
-
-void vtkGodObjectActor::ClearTrail()
-{
-  if (!this->TrailPoints.empty())
-  {
-    this->TrailPoints.clear();
-    this->TrailChanged = true;
-    this->Modified();
-  }
-}
-
-void vtkGodObjectActor::BuildTrail()
-{
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  vtkNew<vtkCellArray> lines;
-  std::vector<vtkIdType> line;
-  const auto endLine = [&]()
-  {
-    if (line.size() > 1)
-    {
-      lines->InsertNextCell(static_cast<vtkIdType>(line.size()), line.data());
-    }
-    line.clear();
-  };
-  for (const TrailPoint& point : this->TrailPoints)
-  {
-    if (point.Touching)
-    {
-      line.push_back(points->InsertNextPoint(point.Position));
-    }
-    else
-    {
-      endLine();
-    }
-  }
-  endLine();
-  this->Trail->SetPoints(points);
-  this->Trail->SetLines(lines);
-  this->TrailChanged = false;
-}
-
 double vtkGodObjectActor::RadiusInWorld(vtkViewport* viewport) const
 {
   vtkRenderer* renderer = vtkRenderer::SafeDownCast(viewport);
@@ -266,6 +227,11 @@ void vtkGodObjectActor::ArrangeForce(double radius)
   {
     return;
   }
+  if (this->ColorForceByMagnitude)
+  {
+    const std::array<double, 3> color = haptics::ForceColor(force / this->ReferenceForce);
+    this->ForceShaftPart->GetProperty()->SetColor(color[0], color[1], color[2]);
+  }
   // A short arrow is all tip, and thinner.
   const double tip = std::min(TipLength * radius, 0.6 * length);
   const double thickness = tip / TipLength;
@@ -297,6 +263,9 @@ void vtkGodObjectActor::Arrange(vtkViewport* viewport)
     Stretch(this->SpringPart, this->HapticInterfacePoint, spring, length, SpringRadius * radius);
   }
   this->ArrangeForce(radius);
+  // Landmarks are 1.4 times as wide as the god-object's radius, whatever their distance.
+  const double fraction = this->SizeInWorld ? DefaultSize : this->Size;
+  this->ArrangeMarks(1.4 * fraction * viewport->GetSize()[1]);
 
   if (this->TrailChanged)
   {
@@ -308,7 +277,8 @@ void vtkGodObjectActor::Arrange(vtkViewport* viewport)
 std::vector<vtkActor*> vtkGodObjectActor::Parts() const
 {
   return { this->GodObjectPart, this->HapticInterfacePointPart, this->SpringPart,
-    this->ForceShaftPart, this->ForceTipPart, this->TrailPart };
+    this->ForceShaftPart, this->ForceTipPart, this->TrailPart, this->TrianglesPart,
+    this->LandmarksPart };
 }
 
 int vtkGodObjectActor::RenderOpaqueGeometry(vtkViewport* viewport)
@@ -322,7 +292,16 @@ int vtkGodObjectActor::RenderOpaqueGeometry(vtkViewport* viewport)
       rendered += part->RenderOpaqueGeometry(viewport);
     }
   }
+  if (this->Legend && this->ShowLegend)
+  {
+    rendered += this->Legend->RenderOpaqueGeometry(viewport);
+  }
   return rendered;
+}
+
+int vtkGodObjectActor::RenderOverlay(vtkViewport* viewport)
+{
+  return this->Legend && this->ShowLegend ? this->Legend->RenderOverlay(viewport) : 0;
 }
 
 int vtkGodObjectActor::RenderTranslucentPolygonalGeometry(vtkViewport* viewport)
@@ -350,6 +329,10 @@ void vtkGodObjectActor::ReleaseGraphicsResources(vtkWindow* window)
   for (vtkActor* part : this->Parts())
   {
     part->ReleaseGraphicsResources(window);
+  }
+  if (this->Legend)
+  {
+    this->Legend->ReleaseGraphicsResources(window);
   }
   this->Superclass::ReleaseGraphicsResources(window);
 }
@@ -423,6 +406,10 @@ void vtkGodObjectActor::PrintSelf(ostream& os, vtkIndent indent)
      << "\n";
   os << indent << "ShowForce: " << (this->ShowForce ? "On" : "Off") << "\n";
   os << indent << "ShowTrail: " << (this->ShowTrail ? "On" : "Off") << "\n";
+  os << indent << "ShowLegend: " << (this->ShowLegend ? "On" : "Off") << "\n";
+  os << indent << "ShowActiveTriangles: " << (this->ShowActiveTriangles ? "On" : "Off") << "\n";
+  os << indent << "SeeThrough: " << (this->SeeThrough ? "On" : "Off") << "\n";
+  os << indent << "ColorForceByMagnitude: " << (this->ColorForceByMagnitude ? "On" : "Off") << "\n";
   os << indent << "MaximumTrailPoints: " << this->MaximumTrailPoints << "\n";
   os << indent << "Trail points: " << this->TrailPoints.size() << "\n";
 }

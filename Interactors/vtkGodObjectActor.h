@@ -7,10 +7,11 @@
  * - the haptic interface point (HIP), a paler and smaller sphere where the device is;
  * - the spring, a thin bar between the two;
  * - the force, an arrow at the god-object;
- * - the trail (off by default), the last points that the god-object went through.
+ * - the trail (off by default), the last points that the god-object went through;
+ * - on request the triangles that hold it, landmarks, and a legend of the force's colours.
  *
- * The HIP is usually inside the surface, so these three are drawn through whatever lies in front.
- * Keep them opaque.
+ * The HIP is usually inside the surface, so god-object, HIP and spring are drawn through whatever
+ * lies in front, unless SeeThrough is off. Keep them opaque.
  *
  * Sizes are fractions of the view's height, so that a terrain of 30 km and a gear of 3 mm look
  * alike and zooming in does not hide the surface; see SetSizeInWorld() for the other way.
@@ -30,6 +31,7 @@
 #include "vtkHapticsInteractorsModule.h"
 #include "vtkNew.h"
 #include "vtkProp3D.h"
+#include "vtkSmartPointer.h"
 
 #include <vector>
 
@@ -37,6 +39,7 @@ class vtkActor;
 class vtkPolyData;
 class vtkProperty;
 class vtkRenderer;
+class vtkScalarBarActor;
 
 class VTKHAPTICSINTERACTORS_EXPORT vtkGodObjectActor : public vtkProp3D
 {
@@ -135,6 +138,43 @@ public:
   vtkGetMacro(MaximumTrailPoints, int);
   ///@}
 
+  ///@{
+  /**
+   * The triangles that hold the god-object, highlighted where ShowActiveTriangles is on (default
+   * off): nine world coordinates each [world unit]. A scene gives them while they are shown.
+   */
+  void SetActiveTriangles(const double* corners, int numberOfTriangles);
+  vtkSetMacro(ShowActiveTriangles, bool);
+  vtkGetMacro(ShowActiveTriangles, bool);
+  vtkBooleanMacro(ShowActiveTriangles, bool);
+  ///@}
+  /** Points to mark by small balls, for example vtkHapticLandmarks::GetOutput(); null for none. */
+  void SetLandmarks(vtkPolyData* points);
+
+  ///@{
+  /**
+   * Whether the force's colour tells its strength, from pale gold to crimson at ReferenceForce
+   * (default off: the colour of GetForceProperty()), and whether a legend of these colours is shown
+   * (default off; its text needs VTK::RenderingFreeType in the program).
+   */
+  vtkSetMacro(ColorForceByMagnitude, bool);
+  vtkGetMacro(ColorForceByMagnitude, bool);
+  vtkBooleanMacro(ColorForceByMagnitude, bool);
+  vtkSetMacro(ShowLegend, bool);
+  vtkGetMacro(ShowLegend, bool);
+  vtkBooleanMacro(ShowLegend, bool);
+  ///@}
+
+  ///@{
+  /**
+   * On (the default): god-object, HIP and spring are drawn through whatever lies in front. Off:
+   * they are occluded as anything else.
+   */
+  void SetSeeThrough(bool through);
+  vtkGetMacro(SeeThrough, bool);
+  vtkBooleanMacro(SeeThrough, bool);
+  ///@}
+
   /**
    * Adds a point to the trail [world unit]; `touching` false leaves a gap, so that lines are drawn
    * only where the surface was touched. Does nothing while ShowTrail is off. Refuses what is not
@@ -150,6 +190,8 @@ public:
   vtkProperty* GetSpringProperty();
   vtkProperty* GetForceProperty();
   vtkProperty* GetTrailProperty();
+  vtkProperty* GetActiveTrianglesProperty();
+  vtkProperty* GetLandmarksProperty();
   ///@}
 
   /** Widens the clipping range of the renderer's camera to hold the HIP, god-object and force. */
@@ -164,6 +206,7 @@ public:
   ///@{
   /** The rendering protocol of vtkProp. */
   int RenderOpaqueGeometry(vtkViewport* viewport) override;
+  int RenderOverlay(vtkViewport* viewport) override;
   int RenderTranslucentPolygonalGeometry(vtkViewport* viewport) override;
   vtkTypeBool HasTranslucentPolygonalGeometry() override;
   void ReleaseGraphicsResources(vtkWindow* window) override;
@@ -182,6 +225,10 @@ private:
   void Arrange(vtkViewport* viewport);
   void ArrangeForce(double radius);
   void BuildTrail();
+  void ShowThrough();
+  void MakeMarks();
+  void ArrangeMarks(double pixels);
+  void ArrangeLegend();
   std::vector<vtkActor*> Parts() const;
 
   double HapticInterfacePoint[3] = { 0.0, 0.0, 0.0 };
@@ -194,6 +241,10 @@ private:
   bool ShowHapticInterfacePoint = true;
   bool ShowForce = true;
   bool ShowTrail = false;
+  bool ShowActiveTriangles = false;
+  bool ColorForceByMagnitude = false;
+  bool ShowLegend = false;
+  bool SeeThrough = true;
   int MaximumTrailPoints = 4000;
 
   vtkNew<vtkActor> GodObjectPart;
@@ -202,7 +253,12 @@ private:
   vtkNew<vtkActor> ForceShaftPart;
   vtkNew<vtkActor> ForceTipPart;
   vtkNew<vtkActor> TrailPart;
+  vtkNew<vtkActor> TrianglesPart;
+  vtkNew<vtkActor> LandmarksPart;
+  vtkSmartPointer<vtkScalarBarActor> Legend; // made when first shown
   vtkNew<vtkPolyData> Trail;
+  vtkNew<vtkPolyData> Triangles;
+  vtkNew<vtkPolyData> Landmarks;
   struct TrailPoint
   {
     double Position[3];

@@ -245,7 +245,8 @@ bool vtkHapticScene::ShowState()
   const bool changed =
     !std::equal(latest.Hip.begin(), latest.Hip.end(), this->HapticInterfacePoint) ||
     !std::equal(latest.GodObject.begin(), latest.GodObject.end(), this->GodObject) ||
-    !std::equal(force.begin(), force.end(), this->Force) || touching != this->Touching;
+    !std::equal(force.begin(), force.end(), this->Force) || touching != this->Touching ||
+    (this->Actor && this->Internal->LandmarksShown != this->Landmarks->GetMTime());
 
   std::copy(latest.Hip.begin(), latest.Hip.end(), this->HapticInterfacePoint);
   std::copy(latest.GodObject.begin(), latest.GodObject.end(), this->GodObject);
@@ -299,6 +300,18 @@ void vtkHapticScene::ShowInPicture()
     this->Actor->SetGodObject(this->GodObject);
     this->Actor->SetForce(this->Force);
     this->Actor->SetTouching(this->Touching);
+    if (this->Actor->GetShowActiveTriangles() && this->Touching)
+    {
+      const std::vector<haptics::Vec3> corners =
+        this->Internal->Surfaces.ActiveCorners(*this->Internal->Latest);
+      this->Actor->SetActiveTriangles(
+        corners.empty() ? nullptr : corners.front().data(), static_cast<int>(corners.size() / 3));
+    }
+    if (this->Internal->LandmarksShown != this->Landmarks->GetMTime())
+    {
+      this->Internal->LandmarksShown = this->Landmarks->GetMTime();
+      this->Actor->SetLandmarks(this->Landmarks->GetOutput());
+    }
   }
 }
 
@@ -307,6 +320,7 @@ vtkGodObjectActor* vtkHapticScene::GetGodObjectActor()
   if (!this->Actor)
   {
     this->Actor = vtkSmartPointer<vtkGodObjectActor>::New();
+    this->Internal->LandmarksShown = 0;
     this->ShowInPicture();
   }
   return this->Actor;

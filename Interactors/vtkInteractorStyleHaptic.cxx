@@ -4,6 +4,7 @@
 #include "vtkCamera.h"
 #include "vtkCommand.h"
 #include "vtkGodObjectActor.h"
+#include "vtkHapticLandmarks.h"
 #include "vtkHapticOverlay.h"
 #include "vtkHapticScene.h"
 #include "vtkMouseHapticDevice.h"
@@ -30,6 +31,11 @@ constexpr const char* KeysHelp = "drag         turn the camera (Shift: pan, Ctrl
                                  "h            engage or release the hand\n"
                                  "v            fit the hand's space to the view\n"
                                  "b            trail\n"
+                                 "d   z        drop a landmark, take the last one away\n"
+                                 "c            clutch: let go, and take hold again\n"
+                                 "+   -        the hand goes farther, less far\n"
+                                 "o            hand occluded or seen through the surface\n"
+                                 "t   g        touched triangles, colours of the force\n"
                                  "r   f        reset the camera, fly to the cursor\n"
                                  "w   s        wireframe, surface\n"
                                  "?            this help\n"
@@ -238,6 +244,25 @@ void vtkInteractorStyleHaptic::ToggleHelp()
   overlay->SetShowHelp(!overlay->GetShowHelp());
 }
 
+void vtkInteractorStyleHaptic::ToggleLook(char key)
+{
+  vtkGodObjectActor* actor = this->Scene->GetGodObjectActor();
+  switch (key)
+  {
+    case 'o':
+    case 'O':
+      actor->SetSeeThrough(!actor->GetSeeThrough());
+      break;
+    case 't':
+    case 'T':
+      actor->SetShowActiveTriangles(!actor->GetShowActiveTriangles());
+      break;
+    default:
+      actor->SetShowLegend(!actor->GetShowLegend());
+      actor->SetColorForceByMagnitude(actor->GetShowLegend());
+  }
+}
+
 bool vtkInteractorStyleHaptic::UpdateScene()
 {
   this->ConnectMouse();
@@ -295,6 +320,31 @@ void vtkInteractorStyleHaptic::OnChar()
       this->Interactor->Render();
       break;
     }
+    case 'd':
+    case 'D':
+      this->Scene->DropLandmark();
+      break;
+    case 'z':
+    case 'Z':
+      this->Scene->GetLandmarks()->Undo();
+      break;
+    case 'c':
+    case 'C':
+      this->Scene->SetClutched(!this->Scene->GetClutched());
+      break;
+    case '+':
+    case '-':
+      this->Scene->ScaleWorkspace(this->Interactor->GetKeyCode() == '+' ? 1.25 : 0.8);
+      break;
+    case 'o':
+    case 'O':
+    case 't':
+    case 'T':
+    case 'g':
+    case 'G':
+      this->ToggleLook(this->Interactor->GetKeyCode());
+      this->Interactor->Render();
+      break;
     default:
       this->Superclass::OnChar();
   }

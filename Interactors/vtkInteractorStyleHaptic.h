@@ -10,6 +10,12 @@
  * - h: engage the haptic scene, or release it
  * - v: map the device's workspace to the surfaces as the camera sees them
  * - b: show or hide the trail behind the god-object
+ * - d, z: drop a landmark, take the last one away
+ * - c: the clutch
+ * - +, -: scale the workspace about the hand
+ * - o: see the hand through the surface or not
+ * - t: highlight the triangles touched
+ * - g: colour the force by its strength, with a legend
  * - ?: show or hide the list of all keys
  *
  * A vtkMouseHapticDevice that is the scene's device is connected to the interactor; it takes the
@@ -86,6 +92,7 @@ private:
     vtkObject* caller, unsigned long event, void* clientData, void* callData);
   void ConnectMouse();
   void ToggleHelp();
+  void ToggleLook(char key);
   void StartTimer();
   void StopTimer();
   vtkRenderer* FindRenderer();

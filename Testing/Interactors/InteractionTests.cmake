@@ -18,6 +18,7 @@ haptics_add_gtest(TestInteractorStyleHaptic
 vtk_add_test_cxx(HapticsImageTests haptics_image_tests
   NO_DATA
   TestGodObjectActor.cxx
+  TestMarks.cxx
   TestMouseTouch.cxx)
 vtk_test_cxx_executable(HapticsImageTests haptics_image_tests RENDERING_FACTORY)
 target_link_libraries(HapticsImageTests PRIVATE
