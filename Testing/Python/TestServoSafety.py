@@ -1,0 +1,95 @@
+"""From Python: statistics while the servo runs, safety, recordings, and Ctrl-C with force."""
+
+import os
+import signal
+import time
+
+from vtkhaptics import (
+    vtkHapticScene,
+    vtkHapticServo,
+    vtkRecordedHapticDevice,
+    vtkSimulatedHapticDevice,
+)
+from vtkmodules.vtkFiltersSources import vtkPlaneSource
+
+plane = vtkPlaneSource()
+plane.SetOrigin(-0.1, -0.1, 0.0)
+plane.SetPoint1(0.1, -0.1, 0.0)
+plane.SetPoint2(-0.1, 0.1, 0.0)
+plane.Update()
+
+device = vtkSimulatedHapticDevice()
+device.SetPreset(device.Omni)
+device.SetMotionToStroke()
+device.SetStrokeBounds(-0.02, 0.02, -0.02, 0.02, 0.0, 0.0)
+device.SetPressDepth(0.01)
+device.SetStrokeClearance(0.002)
+device.LoopOn()
+scene = vtkHapticScene()
+scene.AddSurface(plane.GetOutputPort())
+scene.SetDevice(device)
+servo = scene.GetServo()
+servo.SetStallLimit(60.0)  # a busy machine is no fault in a test
+safety = servo.GetSafety()
+safety.LoosenMissedTickShare(60.0)
+safety.LoosenWatchdogTime(1.0)
+assert safety.IsLoosened()
+
+
+def device_force():
+    force = [0.0, 0.0, 0.0]
+    device.GetForce(force)
+    return max(map(abs, force))
+
+
+def wait_for(condition):
+    end = time.monotonic() + 20.0
+    while not condition():
+        assert time.monotonic() < end, "waited for 20 s"
+        time.sleep(0.005)
+        scene.Update()
+
+
+recording = "TestServoSafety.haptic"
+servo.SetRecordingFileName(recording)
+assert scene.Engage(), scene.GetErrorMessage()
+wait_for(lambda: device_force() > 0.2 and servo.GetNumberOfTicks() > 200)
+assert servo.GetPeriodRatio() >= servo.GetMeanPeriod() > 0.0, "readable while it runs"
+assert sum(
+    servo.GetPeriodCount(i) for i in range(vtkHapticServo.GetNumberOfHistogramBins())
+) >= 200
+assert servo.GetCurrentStiffness() > 0.0
+
+servo.PausedOn()
+wait_for(lambda: device_force() == 0.0)
+assert "paused" in servo.DescribeForceLimits()
+servo.PausedOff()
+wait_for(lambda: device_force() > 0.2)
+
+# Ctrl-C is Python's KeyboardInterrupt as ever, but the hand is free by then.
+try:
+    os.kill(os.getpid(), signal.SIGINT)
+    time.sleep(20.0)
+    raise AssertionError("no KeyboardInterrupt came")
+except KeyboardInterrupt:
+    assert device_force() == 0.0
+errors = []
+servo.AddObserver("ErrorEvent", lambda *_: errors.append(servo.GetErrorMessage()))
+scene.Update()
+assert servo.GetStateAsString() == "Interrupted", servo.GetStateAsString()
+assert not scene.IsEngaged() and len(errors) == 1
+assert servo.GetNumberOfRecordedTicks() == servo.GetNumberOfTicks()
+servo.SetRecordingFileName("")
+assert scene.Engage(), "the program went on, and so may the hand"
+wait_for(lambda: device_force() > 0.2)
+scene.Release()
+assert device_force() == 0.0
+
+recorded = vtkRecordedHapticDevice()
+recorded.SetFileName(recording)
+assert recorded.Open(), recorded.GetErrorMessage()
+assert recorded.GetNumberOfTicks() > 200 and recorded.GetNote() == ""
+scene.SetDevice(recorded)
+assert scene.Step(recorded.GetNumberOfTicks()) == recorded.GetNumberOfTicks()
+os.remove(recording)
+print(servo)
