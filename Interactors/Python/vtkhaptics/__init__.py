@@ -6,6 +6,7 @@ Every class of the VTK Haptics modules is here: ``from vtkhaptics import vtkGodO
 
 try:
     # vtkGodObjectActor is made of actors, which only exist with a rendering back end.
+    import vtkmodules.vtkRenderingFreeType
     import vtkmodules.vtkRenderingOpenGL2
 
     from .vtkHapticsFilters import *
@@ -17,3 +18,5 @@ except ImportError as error:
         "Source the env.sh of the build folder first, for example `. build/env.sh`, and run the "
         "Python that the VTK or ParaView packages were made for, on Debian /usr/bin/python3."
     ) from error
+
+from .plotting import enable
