@@ -1,8 +1,9 @@
 # Functions that add tests.
 #
-#   haptics_add_gtest(<name> <source>... LIBRARIES <target>... [SERIAL])
+#   haptics_add_gtest(<name> <source>... LIBRARIES <target>... [SERIAL] [FIXTURE <fixture>])
 #     A GoogleTest program; ctest shows each of its cases as <name>.<suite>.<case>.
-#     SERIAL: nothing else runs beside it, for tests that measure time.
+#     SERIAL: nothing else runs beside it, for tests that measure time. FIXTURE: what has to run
+#     before, by the name in that test's FIXTURES_SETUP.
 #
 #   haptics_add_python_test(<name> <script> [ARGS <arg>...] [PVPYTHON] [SERIAL])
 #     A script run by python3, or by pvpython, that finds the package vtkhaptics and fails with
@@ -17,7 +18,11 @@ set(haptics_test_environment
   "HAPTICS_TEST_OUTPUT=${_vtk_build_TEST_OUTPUT_DIRECTORY}")
 
 function (haptics_add_gtest name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "SERIAL" "" "LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "SERIAL" "FIXTURE" "LIBRARIES")
+  set(fixture)
+  if (arg_FIXTURE)
+    set(fixture FIXTURES_REQUIRED "${arg_FIXTURE}")
+  endif ()
   add_executable("${name}" ${arg_UNPARSED_ARGUMENTS})
   target_link_libraries("${name}" PRIVATE ${arg_LIBRARIES} GTest::gtest_main)
   target_compile_options("${name}" PRIVATE -Wall -Wextra)
@@ -34,7 +39,8 @@ function (haptics_add_gtest name)
     PROPERTIES
       LABELS      "haptics"
       RUN_SERIAL  "${arg_SERIAL}"
-      ENVIRONMENT "HAPTICS_SOURCE_DIR=${PROJECT_SOURCE_DIR}")
+      ENVIRONMENT "HAPTICS_SOURCE_DIR=${PROJECT_SOURCE_DIR}"
+      ${fixture})
 endfunction ()
 
 function (haptics_add_python_test name script)
