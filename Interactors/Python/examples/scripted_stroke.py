@@ -12,20 +12,24 @@ from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow
 from vtkhaptics import vtkHapticScene, vtkSimulatedHapticDevice
 from vtkhaptics.picture import add_lights, save_window, surface_actor
 
+ring = vtkParametricTorus()
+ring.SetRingRadius(0.05)  # [m]: a larger one would make the hand faster than the servo lets it be
+ring.SetCrossSectionRadius(0.025)
 torus = vtkParametricFunctionSource()
-torus.SetParametricFunction(vtkParametricTorus())  # radii 1 and 0.5, in any unit
+torus.SetParametricFunction(ring)
+torus.SetUResolution(80)
+torus.SetVResolution(80)
 torus.Update()
 device, scene = vtkSimulatedHapticDevice(), vtkHapticScene()
 scene.SetDevice(device)
 scene.AddSurface(torus.GetOutput())
-scene.SetStiffness(20.0)  # the device frame is the world's here: 1 m wide
 hand = scene.GetGodObjectActor()
 hand.ShowTrailOn()
 hand.ColorForceByMagnitudeOn()
 for tick in range(1500):
     angle = 2.0 * math.pi * tick / 1800.0
-    height = 0.8 if tick < 2 else 0.42
-    device.SetPosition(math.cos(angle), math.sin(angle), height)
+    height = max(0.022, 0.035 - 0.0002 * tick)
+    device.SetPosition(0.05 * math.cos(angle), 0.05 * math.sin(angle), height)
     scene.Step(1)
 assert scene.GetTouching()
 
