@@ -37,8 +37,8 @@ double Distance(const DevicePoint& a, const DevicePoint& b) noexcept
   return std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
 }
 
-bool SimulatedPath::FollowAtSpeed(const std::vector<DevicePoint>& points, double speed, bool loop,
-  std::string& error)
+bool SimulatedPath::FollowAtSpeed(
+  const std::vector<DevicePoint>& points, double speed, bool loop, std::string& error)
 {
   if (!CheckPoints(points, error))
   {

@@ -22,8 +22,8 @@ class VTKHAPTICSDEVICES_EXPORT SimulatedPath
 public:
   /// Follows the points at one speed [m/s]. False, with the cause in `error`: no point, a point
   /// that is not finite (named by its index), or a speed that is not finite and > 0.
-  bool FollowAtSpeed(const std::vector<DevicePoint>& points, double speed, bool loop,
-    std::string& error);
+  bool FollowAtSpeed(
+    const std::vector<DevicePoint>& points, double speed, bool loop, std::string& error);
 
   /// Is at each point at its time [s], counted from the first. False, with the cause in `error`:
   /// no point, another number of times than points, a point or time that is not finite, or a time

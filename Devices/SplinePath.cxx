@@ -12,8 +12,8 @@ namespace
 constexpr int SamplesPerSpan = 32;
 }
 
-bool RefineWithSpline(std::vector<DevicePoint>& points, std::vector<double>& times,
-  std::string& error)
+bool RefineWithSpline(
+  std::vector<DevicePoint>& points, std::vector<double>& times, std::string& error)
 {
   std::array<vtkNew<vtkKochanekSpline>, 3> curves;
   std::vector<double> knots;

@@ -10,8 +10,8 @@ namespace haptics
 /// The curve's parameter is the time, or else the length along the points. Expects finite points
 /// and increasing times; false, with the cause in `error`, where fewer than two points differ.
 /// GUI thread.
-bool RefineWithSpline(std::vector<DevicePoint>& points, std::vector<double>& times,
-  std::string& error);
+bool RefineWithSpline(
+  std::vector<DevicePoint>& points, std::vector<double>& times, std::string& error);
 }
 
 #endif

@@ -18,8 +18,8 @@ namespace haptics
 ///     |    |    |            |    |    |
 ///
 /// A flat triangle p m q, m on the edge p q, joins facets that have the corner m to a facet p q r
-/// that has not. Dropping it would leave the surface open, though there is no gap to be seen. So the
-/// facet takes the corner in and becomes two.
+/// that has not. Dropping it would leave the surface open, though there is no gap to be seen. So
+/// the facet takes the corner in and becomes two.
 ///
 /// `flat`: triangles without area but with three different corners, oriented as in the surface. One
 /// that joins nothing changes nothing. `points`: where the corners are, in any frame.

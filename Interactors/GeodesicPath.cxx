@@ -73,7 +73,8 @@ public:
   const Edge& EdgeOf(std::int64_t node) const { return this->Edges[this->EdgeIndex(node)]; }
   double PlaceOnEdge(std::int64_t node) const
   {
-    return (1.0 + static_cast<double>((node - this->Corners) % PointsOnEdge)) / (PointsOnEdge + 1.0);
+    return (1.0 + static_cast<double>((node - this->Corners) % PointsOnEdge)) /
+      (PointsOnEdge + 1.0);
   }
   Vec3 Position(std::int64_t node) const
   {
@@ -228,9 +229,9 @@ void Straighten(const TriangleSurface& surface, const Graph& graph,
       if (!graph.IsCorner(nodes[i]))
       {
         const Graph::Edge& edge = graph.EdgeOf(nodes[i]);
-        points[i + 1] = Cross(points[i], points[i + 2],
-          surface.Points()[static_cast<std::size_t>(edge.From)],
-          surface.Points()[static_cast<std::size_t>(edge.To)]);
+        points[i + 1] =
+          Cross(points[i], points[i + 2], surface.Points()[static_cast<std::size_t>(edge.From)],
+            surface.Points()[static_cast<std::size_t>(edge.To)]);
       }
     }
     const double after = Length(points);
@@ -248,8 +249,9 @@ GeodesicPath FindGeodesicPath(
 {
   GeodesicPath path;
   const Vec3& origin = surface.Origin();
-  const auto local = [&](const Vec3& p) -> Vec3
-  { return { p[0] - origin[0], p[1] - origin[1], p[2] - origin[2] }; };
+  const auto local = [&](const Vec3& p) -> Vec3 {
+    return { p[0] - origin[0], p[1] - origin[1], p[2] - origin[2] };
+  };
   const Vec3 begin = local(from.Position);
   const Vec3 end = local(to.Position);
   path.Points.push_back(begin);

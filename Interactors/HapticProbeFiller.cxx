@@ -77,7 +77,8 @@ void vtkHapticProbeFiller::SetContact(vtkHapticProbe* probe, const haptics::Tick
   }
   probe->Where = { surface, constraint.Triangle };
 
-  if (!prepared || prepared->GetNumberOfPolys() != static_cast<vtkIdType>(surface->Triangles().size()))
+  if (!prepared ||
+    prepared->GetNumberOfPolys() != static_cast<vtkIdType>(surface->Triangles().size()))
   {
     return;
   }
@@ -91,8 +92,8 @@ void vtkHapticProbeFiller::SetContact(vtkHapticProbe* probe, const haptics::Tick
   for (int i = 0; i < 3; ++i)
   {
     probe->Weights[i] = weights[i];
-    probe->PointIds[i] = original ? static_cast<vtkIdType>(original->GetComponent(ids->GetId(i), 0))
-                                  : ids->GetId(i);
+    probe->PointIds[i] =
+      original ? static_cast<vtkIdType>(original->GetComponent(ids->GetId(i), 0)) : ids->GetId(i);
   }
   probe->PointValues->CopyAllOn();
   probe->PointValues->InterpolateAllocate(prepared->GetPointData(), 1);

@@ -6,8 +6,8 @@
 
 namespace haptics
 {
-void SceneEvents::AddProbe(unsigned long event, const TickRecord* tick, const SurfaceSet* surfaces,
-  vtkHapticScene* scene)
+void SceneEvents::AddProbe(
+  unsigned long event, const TickRecord* tick, const SurfaceSet* surfaces, vtkHapticScene* scene)
 {
   if (scene->HasObserver(event))
   {

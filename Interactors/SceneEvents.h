@@ -48,8 +48,8 @@ private:
     int Button;
     TickRecord Tick;
   };
-  void AddProbe(unsigned long event, const TickRecord* tick, const SurfaceSet* surfaces,
-    vtkHapticScene* scene);
+  void AddProbe(
+    unsigned long event, const TickRecord* tick, const SurfaceSet* surfaces, vtkHapticScene* scene);
   void TakeButtons(std::uint32_t buttons, const TickRecord* tick);
 
   std::vector<Event> Pending;

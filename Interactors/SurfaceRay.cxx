@@ -103,8 +103,8 @@ std::optional<double> CastRay(
     const Triangle& triangle = surface.Triangles()[static_cast<std::size_t>(candidates[i])];
     const auto corner = [&](int k) -> const Vec3&
     { return surface.Points()[static_cast<std::size_t>(triangle[k])]; };
-    const std::optional<double> t = Meet(
-      local, direction, corner(0), corner(1), corner(2), surface.TouchedSide() == Side::Front);
+    const std::optional<double> t =
+      Meet(local, direction, corner(0), corner(1), corner(2), surface.TouchedSide() == Side::Front);
     if (t && (!nearest || *t < *nearest))
     {
       nearest = t;

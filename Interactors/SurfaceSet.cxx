@@ -128,8 +128,8 @@ void SurfaceSet::Probe(const TickRecord& tick, vtkHapticProbe* probe) const
     // The arrays are those of now; where the geometry has changed since there are none for it.
     const HapticSurface* surface = this->Find(entry->Id);
     const bool unchanged = surface && surface->Touched() == entry->Touched;
-    vtkHapticProbeFiller::SetContact(probe, tick, entry->Id, this->Locate(tick).Cell, entry->Touched,
-      unchanged ? surface->Prepared() : nullptr);
+    vtkHapticProbeFiller::SetContact(probe, tick, entry->Id, this->Locate(tick).Cell,
+      entry->Touched, unchanged ? surface->Prepared() : nullptr);
   }
 }
 

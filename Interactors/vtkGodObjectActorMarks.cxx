@@ -1,4 +1,5 @@
-// What a vtkGodObjectActor leaves on the surface, and the legend: trail, active triangles, landmarks.
+// What a vtkGodObjectActor leaves on the surface, and the legend: trail, active triangles,
+// landmarks.
 #include "vtkGodObjectActor.h"
 
 #include "ForceColor.h"

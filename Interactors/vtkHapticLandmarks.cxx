@@ -212,8 +212,7 @@ double vtkHapticLandmarks::GetGeodesicDistance(int first, int second, vtkPolyDat
                                   "between; there is no way along it. Drop them anew.");
     return vtkMath::Nan();
   }
-  const haptics::GeodesicPath found =
-    haptics::FindGeodesicPath(*surface, end(first), end(second));
+  const haptics::GeodesicPath found = haptics::FindGeodesicPath(*surface, end(first), end(second));
   if (path)
   {
     path->Initialize();

@@ -163,7 +163,8 @@ void vtkHapticOverlay::ArrangeBar()
 
 void vtkHapticOverlay::Arrange(vtkViewport* viewport)
 {
-  for (vtkTextActor* part : { this->NumberPart.Get(), this->ReadoutPart.Get(), this->HelpPart.Get() })
+  for (vtkTextActor* part :
+    { this->NumberPart.Get(), this->ReadoutPart.Get(), this->HelpPart.Get() })
   {
     part->GetTextProperty()->SetFontSize(this->FontSize);
   }

@@ -40,14 +40,14 @@ public:
 
   /** Whether there is a contact; where not, ids are -1 and there are no values. */
   vtkGetMacro(Touching, bool);
-  vtkGetMacro(Time, double); ///< of the tick [s] since the servo's start
-  vtkGetMacro(Surface, int); ///< id in the scene
+  vtkGetMacro(Time, double);    ///< of the tick [s] since the servo's start
+  vtkGetMacro(Surface, int);    ///< id in the scene
   vtkGetMacro(Cell, vtkIdType); ///< id of the cell as it was given
   /** Id of a corner of the triangle as it was given, corner 0 to 2; -1 elsewhere. */
   vtkIdType GetPointId(int corner);
   /** Weight of a corner, corner 0 to 2: the barycentric position. They are >= 0 and sum up to 1. */
   double GetWeight(int corner);
-  vtkGetVector3Macro(Weights, double); ///< all three
+  vtkGetVector3Macro(Weights, double);  ///< all three
   vtkGetVector3Macro(Position, double); ///< exactly on the triangle
   vtkGetVector3Macro(Normal, double);   ///< unit, of the surface, towards the god-object
   vtkGetVector3Macro(Force, double);    ///< on the hand
@@ -72,7 +72,10 @@ public:
     std::shared_ptr<const haptics::TriangleSurface> Touched; ///< world frame
     int Triangle = -1;                                       ///< of it
   };
-  const Contact& GetContact() const { return this->Where; }
+  const Contact& GetContact() const
+  {
+    return this->Where;
+  }
 #endif
 
 protected:

@@ -283,7 +283,7 @@ private:
   void ShowInPicture();
 
   vtkNew<vtkHapticServo> Servo;
-  vtkSmartPointer<vtkGodObjectActor> Actor; // made when asked for: it needs a rendering back end
+  vtkSmartPointer<vtkGodObjectActor> Actor;  // made when asked for: it needs a rendering back end
   vtkSmartPointer<vtkHapticOverlay> Overlay; // as the actor
   vtkNew<vtkPolyData> Trace;
   vtkNew<vtkMatrix4x4> Workspace;

@@ -200,8 +200,7 @@ bool vtkHapticScene::PullSurfaces()
   return changed;
 }
 
-bool vtkHapticScene::IntersectRay(
-  const double from[3], const double direction[3], double hit[3])
+bool vtkHapticScene::IntersectRay(const double from[3], const double direction[3], double hit[3])
 {
   std::optional<double> nearest;
   for (const haptics::HapticSurface::Snapshot& surface : this->Internal->Surfaces.Touched())

@@ -22,9 +22,9 @@ vtkStandardNewMacro(vtkMouseHapticDevice);
 
 namespace
 {
-constexpr double Arrived = 1e-7;       // [m]: less than a hand can tell; then it is there
-constexpr double HoverHeight = 0.004;  // [m] above the surface when the hand lifts off
-constexpr double FreeSteps = 5.0;      // a notch in free space goes this many times as far
+constexpr double Arrived = 1e-7;      // [m]: less than a hand can tell; then it is there
+constexpr double HoverHeight = 0.004; // [m] above the surface when the hand lifts off
+constexpr double FreeSteps = 5.0;     // a notch in free space goes this many times as far
 }
 
 /// The servo's end: a hand that is drawn to the mouse's position.

@@ -57,7 +57,8 @@ public:
   ///@}
 
   ///@{
-  /** The scene that the hand touches, for its frame and surfaces; null by default. Not kept alive. */
+  /** The scene that the hand touches, for its frame and surfaces; null by default. Not kept alive.
+   */
   void SetScene(vtkHapticScene* scene);
   vtkHapticScene* GetScene();
   ///@}

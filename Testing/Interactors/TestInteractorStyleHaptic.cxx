@@ -31,8 +31,8 @@ TEST(InteractorStyleHaptic, HasOneTimerThatRunsAndDisturbsNobodyElse)
   EventCounter others(window.Interactor, vtkCommand::TimerEvent);
   window.Table->SetPosition(0.0, 0.0, 0.001);
   const vtkIdType before = window.Style->GetNumberOfRenders();
-  // VTK 9.1's ProcessEvents() fires no timers; the event loop does in every version. It ends at each
-  // render, the window's own too, or when the guard's time is up.
+  // VTK 9.1's ProcessEvents() fires no timers; the event loop does in every version. It ends at
+  // each render, the window's own too, or when the guard's time is up.
   vtkNew<vtkCallbackCommand> stop;
   stop->SetClientData(window.Interactor);
   stop->SetCallback([](vtkObject*, unsigned long, void* interactor, void*)
@@ -41,7 +41,8 @@ TEST(InteractorStyleHaptic, HasOneTimerThatRunsAndDisturbsNobodyElse)
   window.Interactor->AddObserver(vtkCommand::TimerEvent, stop);
   window.Interactor->CreateOneShotTimer(10000);
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
-  while (window.Style->GetNumberOfRenders() == before && std::chrono::steady_clock::now() < deadline)
+  while (
+    window.Style->GetNumberOfRenders() == before && std::chrono::steady_clock::now() < deadline)
   {
     window.Interactor->Start();
   }

@@ -1,6 +1,5 @@
-// The mouse strokes a sphere with the space bar held, in virtual time: hand under the cursor, arrow,
-// trail, and the bar and number of the force.
-// Seen to fail when the bar was always empty.
+// The mouse strokes a sphere with the space bar held, in virtual time: hand under the cursor,
+// arrow, trail, and the bar and number of the force. Seen to fail when the bar was always empty.
 #include "vtkActor.h"
 #include "vtkCamera.h"
 #include "vtkCommand.h"

@@ -30,8 +30,7 @@ public:
     : Scene(scene)
   {
     this->Command->SetClientData(this);
-    this->Command->SetCallback(
-      [](vtkObject*, unsigned long event, void* self, void* data)
+    this->Command->SetCallback([](vtkObject*, unsigned long event, void* self, void* data)
       { static_cast<Diary*>(self)->Note(event, data); });
     for (unsigned long event = vtkHapticScene::ContactBeginEvent;
          event <= vtkHapticScene::LandmarkEvent; ++event)
@@ -173,8 +172,8 @@ TEST(HapticProbe, TellsIdsWeightsAndValuesInTheCellAsItWasGiven)
   EXPECT_EQ(probe->GetSurface(), id);
   EXPECT_EQ(probe->GetCell(), 0);
   EXPECT_NEAR(probe->GetValue("Heat"), 10.0 * 0.01, 1e-9);
-  EXPECT_EQ(probe->GetCellValues()->GetAbstractArray("Part")->GetVariantValue(0).ToString(),
-    "lid, upper");
+  EXPECT_EQ(
+    probe->GetCellValues()->GetAbstractArray("Part")->GetVariantValue(0).ToString(), "lid, upper");
   EXPECT_TRUE(std::isnan(probe->GetValue("Nothing")));
   // The weights put the corners' own places together to the position, exactly on the table.
   vtkSmartPointer<vtkPolyData> table = MakeTable(0.0);
@@ -297,7 +296,8 @@ TEST(HapticLandmarks, TheWayAlongASphereIsTheGreatCircle)
   hand.Scene->GetLandmarks()->GetPosition(first, a);
   hand.Scene->GetLandmarks()->GetPosition(second, b);
   const double angle = std::acos((a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) /
-    std::sqrt((a[0] * a[0] + a[1] * a[1] + a[2] * a[2]) * (b[0] * b[0] + b[1] * b[1] + b[2] * b[2])));
+    std::sqrt(
+      (a[0] * a[0] + a[1] * a[1] + a[2] * a[2]) * (b[0] * b[0] + b[1] * b[1] + b[2] * b[2])));
   vtkNew<vtkPolyData> way;
   const double length = hand.Scene->GetLandmarks()->GetGeodesicDistance(first, second, way);
   // The facets lie up to 0.2 % inside the sphere. Along the edges alone it would be 10 % longer.
