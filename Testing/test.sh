@@ -27,6 +27,18 @@ while :; do
   esac
   shift
 done
+# ctest itself ignores options that it does not know.
+for argument; do
+  case $argument in
+    --*)
+      if command -v ctest >/dev/null && ! ctest --help | grep -q -e "${argument%%=*}"; then
+        echo "test.sh: '$argument' is no option of ctest, nor one of this script in front." >&2
+        usage >&2
+        exit 2
+      fi
+      ;;
+  esac
+done
 
 sh Testing/setup.sh $setup_arguments
 
