@@ -71,9 +71,8 @@ bool vtkHapticScene::Engage()
     this->Fail("There is no device to engage. Call SetDevice() first.");
     return false;
   }
-  if (!device->IsOpen() && !device->Open())
+  if (!this->OpenDevice(device))
   {
-    this->Fail(std::string("The device could not be opened: ") + device->GetErrorMessage());
     return false;
   }
   this->PullState();
@@ -86,6 +85,20 @@ bool vtkHapticScene::Engage()
   this->Engaged = true;
   this->Modified();
   return true;
+}
+
+bool vtkHapticScene::OpenDevice(vtkHapticDevice* device)
+{
+  if (device->IsOpen() || device->Open())
+  {
+    return true;
+  }
+  // One that loads firmware or has to be homed takes its time, and says what it waits for.
+  const bool isOpening = device->GetErrorMessage()[0] == '\0';
+  this->Fail(
+    std::string(isOpening ? "The device is not ready yet: " : "The device could not be opened: ") +
+    device->GetStatusMessage());
+  return false;
 }
 
 void vtkHapticScene::Release()
@@ -119,9 +132,8 @@ int vtkHapticScene::Step(int n)
     return 0;
   }
   vtkHapticDevice* device = this->GetDevice();
-  if (device && !this->Engaged && !device->IsOpen() && !device->Open())
+  if (device && !this->Engaged && !this->OpenDevice(device))
   {
-    this->Fail(std::string("The device could not be opened: ") + device->GetErrorMessage());
     return 0;
   }
   this->PullState();

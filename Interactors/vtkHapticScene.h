@@ -273,6 +273,7 @@ private:
   std::unique_ptr<Internals> Internal;
 
   void Fail(const std::string& message);
+  bool OpenDevice(vtkHapticDevice* device);
   bool PullSurfaces();
   bool PullState();
   void PullRecords();
