@@ -67,6 +67,12 @@ protected:
     device->AddObserver(vtkCommand::AnyEvent, command);
   }
 
+  /// The time that Run() ticks by [s]; a channel takes a smaller one for a servo started anew.
+  static double Now()
+  {
+    return std::chrono::duration<double>(FalconModel::Clock::now().time_since_epoch()).count();
+  }
+
   /// Updates, and ticks as a servo would with this force [N], until `done` or 5 s are over.
   template <typename Done>
   bool Run(Done done, const std::array<double, 3>& force = {})
@@ -77,9 +83,7 @@ protected:
       this->Device->Update();
       const auto channel = this->Device->GetChannel();
       haptics::DeviceSample sample;
-      const double time =
-        std::chrono::duration<double>(FalconModel::Clock::now().time_since_epoch()).count();
-      if (channel && channel->Read(time, sample))
+      if (channel && channel->Read(Now(), sample))
       {
         channel->Write(force);
       }

@@ -39,9 +39,16 @@ std::vector<RecordedTick> MakeTicks()
   return ticks;
 }
 
+/// Tests run beside each other: each has a file of its own.
+std::string FileOfThisTest()
+{
+  return std::string("DeviceRecording") +
+    ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".haptic";
+}
+
 std::string WriteTicks(const std::vector<RecordedTick>& ticks)
 {
-  const std::string name = "TestDeviceRecording.haptic";
+  const std::string name = FileOfThisTest();
   RecordingHeader header;
   header.Rate = 1000.0;
   header.MaximumForce = 3.3;
@@ -131,8 +138,8 @@ TEST(DeviceRecording, RefusesWhatIsNoneAndTellsWhy)
   std::string error;
   EXPECT_FALSE(ReadRecording("no-such-file.haptic", read, error));
   EXPECT_NE(error.find("no-such-file.haptic"), std::string::npos);
-  Replace("TestDeviceRecording.haptic", "solid of an STL file, longer than the magic number");
-  EXPECT_FALSE(ReadRecording("TestDeviceRecording.haptic", read, error));
+  Replace(FileOfThisTest(), "solid of an STL file, longer than the magic number");
+  EXPECT_FALSE(ReadRecording(FileOfThisTest(), read, error));
   EXPECT_NE(error.find("is none"), std::string::npos) << error;
   RecordingWriter writer;
   EXPECT_FALSE(writer.Open("no-such-folder/a.haptic", {}, error));

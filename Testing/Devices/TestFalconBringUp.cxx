@@ -294,7 +294,7 @@ TEST_F(FalconBringUp, KeepsTwoDevicesApart)
     }))
     << second->GetStatusMessage();
   haptics::DeviceSample sample;
-  ASSERT_TRUE(this->Device->GetChannel()->Read(0.0, sample));
+  ASSERT_TRUE(this->Device->GetChannel()->Read(Now(), sample));
   EXPECT_EQ(sample.Buttons, 1u);
   ASSERT_TRUE(second->GetChannel()->Read(0.0, sample));
   EXPECT_EQ(sample.Buttons, 2u);
@@ -305,7 +305,8 @@ TEST_F(FalconBringUp, KeepsTwoDevicesApart)
       second->Update();
       return second->GetState() == vtkHapticDevice::Faulted;
     }));
-  EXPECT_TRUE(this->Device->IsOpen()) << "the other one goes on";
+  EXPECT_TRUE(this->Device->IsOpen())
+    << "the other one goes on: " << this->Device->GetStatusMessage();
 
   vtkNew<vtkFalconHapticDevice> third;
   this->Watch(third, log);

@@ -141,7 +141,7 @@ TEST_F(FalconFaults, GivesThePositionOfTheEncodersAndTheButtons)
   this->Bus.Plug(1, model);
   ASSERT_TRUE(this->BecomesReady());
   haptics::DeviceSample sample;
-  ASSERT_TRUE(this->Device->GetChannel()->Read(0.0, sample));
+  ASSERT_TRUE(this->Device->GetChannel()->Read(Now(), sample));
   EXPECT_EQ(sample.Buttons, 9u);
   for (std::size_t i = 0; i < 3; ++i)
   {
