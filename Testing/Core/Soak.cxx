@@ -214,7 +214,7 @@ void PrintHelp(const char* program)
   std::printf(
     "Usage: %s [--ticks N] [--seed N] [--scene NAME] [--engine bruteforce|embree]\n\n"
     "  --ticks N    ticks for each scene and kind of way; default 4000. The long form is\n"
-    "               --ticks 130000: more than 10 million ticks.\n"
+    "               --ticks 450000: ten million in contact.\n"
     "  --seed N     of the random ways; default 1. A failure prints the seed to repeat.\n"
     "  --scene NAME only this scene\n"
     "  --engine E   default: chosen by size\n",
