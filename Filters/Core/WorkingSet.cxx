@@ -71,6 +71,18 @@ bool WorkingSet::IsEmptyAround(const Vector& x) const
     SquaredLength(x - this->EmptyCentre) < this->EmptyRadius * this->EmptyRadius;
 }
 
+bool WorkingSet::PassesThroughNothing(const Vector& to)
+{
+  const bool isEmpty =
+    this->Covered == Region::Ball && this->IsEmptyAround(this->Position) && this->IsEmptyAround(to);
+  if (isEmpty)
+  {
+    this->Target = to;
+    this->IsTargetMeasured = false;
+  }
+  return isEmpty;
+}
+
 bool WorkingSet::IsInBall(const Vector& x) const
 {
   return SquaredLength(x - this->Centre) <= this->Radius * this->Radius;
@@ -86,11 +98,8 @@ bool WorkingSet::FindFirstHit(
   const Vector& goal, const ActivePlanes& active, WorkBudget& budget, FacetHit& hit)
 {
   const Vector to = goal - this->Offset;
-  if (this->Covered == Region::Ball && this->IsEmptyAround(this->Position) &&
-    this->IsEmptyAround(to))
+  if (this->PassesThroughNothing(to))
   {
-    this->Target = to;
-    this->IsTargetMeasured = false;
     return true;
   }
   const auto isAnswered = [&]
@@ -455,11 +464,8 @@ FacetHit WorkingSet::Scan(const Vector& to, const ActivePlanes& active)
 bool WorkingSet::IsClear(const Vector& target)
 {
   const Vector to = target - this->Offset;
-  if (this->Covered == Region::Ball && this->IsEmptyAround(this->Position) &&
-    this->IsEmptyAround(to))
+  if (this->PassesThroughNothing(to))
   {
-    this->Target = to;
-    this->IsTargetMeasured = false;
     return true;
   }
   if (!this->IsPositionMeasured)

@@ -100,6 +100,8 @@ private:
   bool IsInBall(const Vector& x) const;
   bool IsFarOut() const;
   bool IsEmptyAround(const Vector& x) const;
+  /// Whether a motion stays in the empty ball: then nothing has to be measured for it.
+  bool PassesThroughNothing(const Vector& to);
 
   std::shared_ptr<const TriangleSurface> Touched;
   std::int32_t Index;
