@@ -1,59 +1,36 @@
 // The mouse strokes a sphere with the space bar held, in virtual time: hand under the cursor,
 // arrow, trail, and the bar and number of the force. Seen to fail when the bar was always empty.
-#include "vtkActor.h"
-#include "vtkCamera.h"
+#include "ImageTestTools.h"
+
 #include "vtkCommand.h"
-#include "vtkGodObjectActor.h"
 #include "vtkHapticOverlay.h"
 #include "vtkHapticScene.h"
 #include "vtkInteractorStyleHaptic.h"
 #include "vtkMouseHapticDevice.h"
 #include "vtkNew.h"
-#include "vtkPolyDataMapper.h"
-#include "vtkProperty.h"
-#include "vtkRegressionTestImage.h"
-#include "vtkRenderWindow.h"
-#include "vtkRenderWindowInteractor.h"
-#include "vtkRenderer.h"
-#include "vtkSphereSource.h"
 
 int TestMouseTouch(int argc, char* argv[])
 {
-  vtkNew<vtkSphereSource> ball;
-  ball->SetRadius(30.0); // the workspace is fitted: any unit will do
-  ball->SetThetaResolution(60);
-  ball->SetPhiResolution(60);
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(ball->GetOutputPort());
-  vtkNew<vtkActor> surface;
-  surface->SetMapper(mapper);
-  surface->GetProperty()->SetColor(0.55, 0.65, 0.75);
+  TestBall ball(30.0, 60, 60); // the workspace is fitted: any unit will do
 
   vtkNew<vtkMouseHapticDevice> mouse;
   vtkNew<vtkHapticScene> scene;
-  scene->AddSurface(surface);
+  scene->AddSurface(ball.Actor);
   scene->SetDevice(mouse);
   vtkGodObjectActor* hand = scene->GetGodObjectActor();
   hand->ShowTrailOn();
   hand->SetSize(0.03);
 
-  vtkNew<vtkRenderer> renderer;
-  renderer->SetBackground(0.95, 0.95, 0.95);
-  renderer->AddActor(surface);
-  renderer->AddViewProp(hand);
+  TestPicture picture(ball.Actor, hand);
+  vtkRenderer* const renderer = picture.Renderer;
+  vtkRenderWindowInteractor* const interactor = picture.Interactor;
   renderer->AddViewProp(scene->GetOverlay());
-  vtkNew<vtkRenderWindow> window;
-  window->SetSize(300, 300);
-  window->SetMultiSamples(0);
-  window->AddRenderer(renderer);
-  vtkNew<vtkRenderWindowInteractor> interactor;
-  interactor->SetRenderWindow(window);
   vtkNew<vtkInteractorStyleHaptic> style;
   style->SetScene(scene);
   interactor->SetInteractorStyle(style);
   interactor->Initialize();
   renderer->ResetCamera();
-  window->Render();
+  picture.Window->Render();
   if (!scene->FitWorkspace(renderer->GetActiveCamera()))
   {
     return EXIT_FAILURE;
@@ -76,14 +53,5 @@ int TestMouseTouch(int argc, char* argv[])
     cerr << "The mouse does not touch the ball: " << scene->GetErrorMessage() << endl;
     return EXIT_FAILURE;
   }
-  renderer->ResetCameraClippingRange();
-  hand->IncludeInClippingRange(renderer);
-  window->Render();
-
-  const int result = vtkRegressionTestImageThreshold(window, 0.2);
-  if (result == vtkRegressionTester::DO_INTERACTOR)
-  {
-    interactor->Start();
-  }
-  return result == vtkRegressionTester::FAILED ? EXIT_FAILURE : EXIT_SUCCESS;
+  return picture.Compare(argc, argv);
 }
