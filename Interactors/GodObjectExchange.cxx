@@ -9,7 +9,7 @@ GodObjectExchange::GodObjectExchange()
 {
   auto freeSpace = std::make_unique<NumberedGodObject>();
   freeSpace->Object =
-    std::make_unique<GodObject>(std::vector<std::shared_ptr<const TriangleSurface>>{});
+    std::make_unique<GodObject>(std::vector<TouchedSurface>{});
   this->Current = freeSpace.release();
 }
 

@@ -68,14 +68,14 @@ bool SurfaceSet::Pull(std::vector<std::string>& errors)
   return changed;
 }
 
-std::vector<HapticSurface::Snapshot> SurfaceSet::Touched() const
+std::vector<TouchedSurface> SurfaceSet::Touched() const
 {
-  std::vector<HapticSurface::Snapshot> touched;
+  std::vector<TouchedSurface> touched;
   for (const auto& surface : this->Surfaces)
   {
     if (HapticSurface::Snapshot snapshot = surface->Touched())
     {
-      touched.push_back(std::move(snapshot));
+      touched.emplace_back(std::move(snapshot));
     }
   }
   return touched;

@@ -3,6 +3,7 @@
 
 #include "HapticSurface.h"
 #include "TickRecord.h"
+#include "TouchedSurface.h"
 
 #include <cstdint>
 #include <map>
@@ -47,7 +48,7 @@ public:
   bool Pull(std::vector<std::string>& errors);
 
   /// What a god-object is to touch now.
-  std::vector<HapticSurface::Snapshot> Touched() const;
+  std::vector<TouchedSurface> Touched() const;
   /// Remembers what Touched() gave under the number it was published with.
   void Published(std::uint64_t generation);
   /// Forgets what was published before `generation`.

@@ -179,7 +179,7 @@ bool vtkHapticScene::PullSurfaces()
   const bool changed = surfaces.Pull(errors) || clutchMoved;
   if (changed)
   {
-    std::vector<haptics::HapticSurface::Snapshot> touched;
+    std::vector<haptics::TouchedSurface> touched;
     if (!this->Internal->Clutched)
     {
       touched = surfaces.Touched();

@@ -28,18 +28,19 @@ constexpr int LargestWay = LargestNumberOfPasses * LargestNumberOfCasts + 1;
 class GodObject::Implementation
 {
 public:
-  explicit Implementation(std::vector<std::shared_ptr<const TriangleSurface>> surfaces)
+  explicit Implementation(std::vector<TouchedSurface> surfaces)
     : Surfaces(std::move(surfaces))
   {
     if (!this->Surfaces.empty())
     {
-      this->Origin = ToVector(this->Surfaces.front()->Origin());
+      this->Origin = ToVector(this->Surfaces.front().Surface->Origin());
     }
     this->Sets.reserve(this->Surfaces.size());
-    for (const auto& surface : this->Surfaces)
+    for (const TouchedSurface& touched : this->Surfaces)
     {
       const auto index = static_cast<std::int32_t>(this->Sets.size());
-      this->Sets.emplace_back(surface, index, ToVector(surface->Origin()) - this->Origin);
+      this->Sets.emplace_back(
+        touched.Surface, index, ToVector(touched.Surface->Origin()) - this->Origin);
     }
   }
 
@@ -75,7 +76,7 @@ public:
     }
   }
 
-  std::vector<std::shared_ptr<const TriangleSurface>> Surfaces;
+  std::vector<TouchedSurface> Surfaces;
   Vector Origin{ 0 };   ///< of the scene frame, in the world
   Vector Position{ 0 }; ///< scene frame
   bool IsPlaced = false;
@@ -193,7 +194,7 @@ private:
   WorkBudget Budget;
 };
 
-GodObject::GodObject(std::vector<std::shared_ptr<const TriangleSurface>> surfaces)
+GodObject::GodObject(std::vector<TouchedSurface> surfaces)
   : Internal(new Implementation(std::move(surfaces)))
 {
 }
@@ -277,7 +278,7 @@ Vec3 GodObject::WayOrigin() const noexcept
   return ToVec3(this->Internal->Origin);
 }
 
-const std::vector<std::shared_ptr<const TriangleSurface>>& GodObject::Surfaces() const noexcept
+const std::vector<TouchedSurface>& GodObject::Surfaces() const noexcept
 {
   return this->Internal->Surfaces;
 }

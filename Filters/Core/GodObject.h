@@ -1,7 +1,7 @@
 #ifndef GodObject_h
 #define GodObject_h
 
-#include "TriangleSurface.h"
+#include "TouchedSurface.h"
 #include "Vec3.h"
 #include "vtkHapticsCoreModule.h"
 
@@ -65,7 +65,7 @@ class VTKHAPTICSCORE_EXPORT GodObject
 {
 public:
   /// Allocates everything that an update needs. An empty list is free space.
-  explicit GodObject(std::vector<std::shared_ptr<const TriangleSurface>> surfaces);
+  explicit GodObject(std::vector<TouchedSurface> surfaces);
   ~GodObject();
   GodObject(const GodObject&) = delete;
   GodObject& operator=(const GodObject&) = delete;
@@ -85,7 +85,7 @@ public:
   /// The first surface's origin, or the world's. [world]
   Vec3 WayOrigin() const noexcept;
 
-  const std::vector<std::shared_ptr<const TriangleSurface>>& Surfaces() const noexcept;
+  const std::vector<TouchedSurface>& Surfaces() const noexcept;
 
 private:
   class Implementation;

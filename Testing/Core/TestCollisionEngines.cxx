@@ -159,7 +159,7 @@ TEST(Engines, LeadToTheSameContact)
         // The same triangles in another order, around another centre: rounding may differ.
         ASSERT_LT(Length(a.Position - b.Position), 1e-9 * reach)
           << "scene " << seed << ", tick " << tick << ", "
-          << NameOf(other->Surfaces()[0]->Engine().Kind());
+          << NameOf(other->Surfaces()[0].Surface->Engine().Kind());
         ASSERT_EQ(a.Status, b.Status);
       }
     }

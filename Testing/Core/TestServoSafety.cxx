@@ -37,12 +37,12 @@ TEST(ServoSafety, TheCounterCounts)
 
 TEST(ServoSafety, NoUpdateAllocates)
 {
-  const std::vector<std::shared_ptr<const TriangleSurface>> surfaces = {
+  const std::vector<TouchedSurface> surfaces = {
     MakeSurface(Star(4, 1.0, 0.4, 3)), MakeSurface(Box(1, 1, 1, 8)),
     MakeSurface(Soup(500, 0.4, 2), Side::Both), MakeSurface(Square(1.0, 4), Side::Both),
     MakeSurface(Icosphere(6, 1.0)), MakeSurface(Square(1.0), Side::Both, EngineKind::BruteForce)
   };
-  for (const auto& surface : surfaces)
+  for (const TouchedSurface& surface : surfaces)
   {
     GodObject god({ surface });
     god.Update({ 2, 2, 2 });

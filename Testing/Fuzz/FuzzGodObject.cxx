@@ -120,12 +120,13 @@ Vec3 NextHip(FuzzInput& input, const Vec3& last)
 class Checker
 {
 public:
-  explicit Checker(const std::vector<std::shared_ptr<const TriangleSurface>>& surfaces)
+  explicit Checker(const std::vector<TouchedSurface>& surfaces)
   {
-    for (const auto& surface : surfaces)
+    for (const TouchedSurface& touched : surfaces)
     {
+      const auto& surface = touched.Surface;
       this->Exact.emplace_back(surface);
-      this->Offsets.push_back(Difference(surface->Origin(), surfaces.front()->Origin()));
+      this->Offsets.push_back(Difference(surface->Origin(), surfaces.front().Surface->Origin()));
       this->Reach = std::max(this->Reach, Length(this->Offsets.back()) + surface->Radius());
     }
   }
@@ -143,7 +144,7 @@ public:
     {
       const Constraint& constraint = contact.Constraints[i];
       Require(std::abs(Length(constraint.Normal) - 1.0) < 1e-9, "normals have length 1");
-      const auto& surface = god.Surfaces().at(constraint.Surface);
+      const auto& surface = god.Surfaces().at(constraint.Surface).Surface;
       Require(static_cast<std::size_t>(constraint.Triangle) < surface->Triangles().size(),
         "constraints name triangles");
     }
@@ -196,7 +197,7 @@ private:
 
 void TestOneInput(FuzzInput& input)
 {
-  std::vector<std::shared_ptr<const TriangleSurface>> surfaces;
+  std::vector<TouchedSurface> surfaces;
   const int wanted = 1 + (input.Choice(4) == 3 ? input.Choice(3) : 0);
   for (int i = 0; i < wanted; ++i)
   {

@@ -38,7 +38,7 @@ inline std::unique_ptr<haptics::GodObject> MakeGodObject(
   std::shared_ptr<const haptics::TriangleSurface> surface)
 {
   return std::make_unique<haptics::GodObject>(
-    std::vector<std::shared_ptr<const haptics::TriangleSurface>>{ std::move(surface) });
+    std::vector<haptics::TouchedSurface>{ std::move(surface) });
 }
 
 /// A device whose every answer the test decides. `Hand` runs in the servo's thread.

@@ -30,7 +30,7 @@ TEST(GodObjectExchange, GivesTheNewestAndDropsTheOnesNeverTaken)
   exchange.Publish(MakeGodObject(newest));
   EXPECT_TRUE(dropped.expired());
   EXPECT_EQ(exchange.Take().Generation, 2u);
-  EXPECT_EQ(exchange.Take().Object->Surfaces().front(), newest);
+  EXPECT_EQ(exchange.Take().Object->Surfaces().front().Surface, newest);
 }
 
 TEST(GodObjectExchange, KeepsARetiredSurfaceUntilItIsCollected)
