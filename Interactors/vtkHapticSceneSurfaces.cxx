@@ -134,8 +134,9 @@ bool vtkHapticScene::FitWorkspace(vtkCamera* camera)
 {
   this->PullSurfaces();
   vtkBoundingBox box;
-  for (const haptics::HapticSurface::Snapshot& surface : this->Internal->Surfaces.Touched())
+  for (const haptics::TouchedSurface& touched : this->Internal->Surfaces.Touched())
   {
+    const haptics::TriangleSurface* surface = touched.Surface.get();
     for (const haptics::Vec3& point : surface->Points())
     {
       const haptics::Vec3& origin = surface->Origin();
@@ -203,9 +204,9 @@ bool vtkHapticScene::PullSurfaces()
 bool vtkHapticScene::IntersectRay(const double from[3], const double direction[3], double hit[3])
 {
   std::optional<double> nearest;
-  for (const haptics::HapticSurface::Snapshot& surface : this->Internal->Surfaces.Touched())
+  for (const haptics::TouchedSurface& touched : this->Internal->Surfaces.Touched())
   {
-    const std::optional<double> t = haptics::CastRay(*surface, { { from[0], from[1], from[2] } },
+    const std::optional<double> t = haptics::CastRay(*touched.Surface, { { from[0], from[1], from[2] } },
       { { direction[0], direction[1], direction[2] } });
     if (t && (!nearest || *t < *nearest))
     {
