@@ -1,0 +1,182 @@
+#include "HapticDeviceChoice.h"
+
+#include "vtkBoundingBox.h"
+#include "vtkDataArray.h"
+#include "vtkFalconHapticDevice.h"
+#include "vtkHapticScene.h"
+#include "vtkMath.h"
+#include "vtkMatrix4x4.h"
+#include "vtkMouseHapticDevice.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkRecordedHapticDevice.h"
+#include "vtkSimulatedHapticDevice.h"
+#include "vtkXMLPolyDataReader.h"
+
+#include <vtksys/SystemTools.hxx>
+
+#include <cmath>
+
+namespace haptics
+{
+namespace
+{
+constexpr int StrokeSamples = 400;       // rays cast to find a stroke
+constexpr double StrokeShare = 0.35;     // of the workspace's half extent that a stroke covers
+constexpr double StrokeDepth = 0.006;    // below the surface [m]
+constexpr double StrokeClearance = 0.02; // above it before and after [m]
+constexpr double StrokeSpeed = 0.05;     // [m/s]
+
+vtkSmartPointer<vtkPolyData> Polyline(vtkPoints* points, vtkDataArray* time)
+{
+  auto path = vtkSmartPointer<vtkPolyData>::New();
+  path->SetPoints(points);
+  if (time)
+  {
+    path->GetPointData()->AddArray(time);
+  }
+  return path;
+}
+}
+
+DeviceChoice DeviceChoice::Make(const std::string& name, std::string& error)
+{
+  DeviceChoice choice;
+  if (name == "mouse")
+  {
+    choice.Chosen = vtkSmartPointer<vtkMouseHapticDevice>::New();
+  }
+  else if (name == "falcon")
+  {
+    choice.Chosen = vtkSmartPointer<vtkFalconHapticDevice>::New();
+  }
+  else if (name == "simulated")
+  {
+    choice.Chosen = vtkSmartPointer<vtkSimulatedHapticDevice>::New();
+    choice.MakesStroke = true;
+  }
+  else if (!vtksys::SystemTools::FileExists(name, true))
+  {
+    error = "'" + name +
+      "' is neither a device (mouse, simulated, falcon) nor a file with a recording or a path.";
+  }
+  else if (vtksys::SystemTools::GetFilenameLastExtension(name) != ".vtp")
+  {
+    auto recorded = vtkSmartPointer<vtkRecordedHapticDevice>::New();
+    recorded->SetFileName(name);
+    choice.Chosen = recorded;
+  }
+  else if (choice.ReadPath(name, error))
+  {
+    choice.Chosen = vtkSmartPointer<vtkSimulatedHapticDevice>::New();
+  }
+  return choice;
+}
+
+bool DeviceChoice::ReadPath(const std::string& file, std::string& error)
+{
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  vtkPolyData* read = reader->GetOutput();
+  if (reader->GetErrorCode() != 0 || read->GetNumberOfPoints() < 2)
+  {
+    error = file + ": holds no path of a hand. Give a .vtp with at least two points.";
+    return false;
+  }
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkDataArray* hip = read->GetPointData()->GetArray("HapticInterfacePoint");
+  for (vtkIdType i = 0; i < read->GetNumberOfPoints(); ++i)
+  {
+    points->InsertNextPoint(
+      hip && hip->GetNumberOfComponents() == 3 ? hip->GetTuple3(i) : read->GetPoint(i));
+  }
+  this->Path = Polyline(points, read->GetPointData()->GetArray("Time"));
+  return true;
+}
+
+bool DeviceChoice::MakeStroke(vtkHapticScene* scene)
+{
+  if (!this->MakesStroke)
+  {
+    return true;
+  }
+  vtkMatrix4x4* toWorld = scene->GetWorkspaceTransform();
+  const auto world = [toWorld](double x, double y, double z, double w, double result[4])
+  {
+    const double device[4] = { x, y, z, w };
+    toWorld->MultiplyPoint(device, result);
+  };
+  double bounds[6];
+  this->Chosen->GetWorkspaceBounds(bounds);
+  const double center[3] = { 0.5 * (bounds[0] + bounds[1]), 0.5 * (bounds[2] + bounds[3]),
+    0.5 * (bounds[4] + bounds[5]) };
+  double down[4];
+  world(0.0, 0.0, -1.0, 0.0, down);
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  double last[4];
+  for (int i = 0; i < StrokeSamples; ++i)
+  {
+    // A smooth closed curve around the middle of what the hand reaches.
+    const double s = 2.0 * vtkMath::Pi() * i / StrokeSamples;
+    const double x = center[0] + StrokeShare * 0.5 * (bounds[1] - bounds[0]) * std::sin(2.0 * s);
+    const double y = center[1] + StrokeShare * 0.5 * (bounds[3] - bounds[2]) * std::cos(3.0 * s);
+    double from[4];
+    world(x, y, bounds[5], 1.0, from);
+    double hit[3];
+    if (scene->IntersectRay(from, down, hit))
+    {
+      // `down` is a metre of the device long.
+      double pressed[3];
+      double above[3];
+      for (int j = 0; j < 3; ++j)
+      {
+        pressed[j] = hit[j] + StrokeDepth * down[j];
+        above[j] = hit[j] - StrokeClearance * down[j];
+      }
+      if (points->GetNumberOfPoints() == 0)
+      {
+        points->InsertNextPoint(above);
+      }
+      points->InsertNextPoint(pressed);
+      std::copy(above, above + 3, last);
+    }
+  }
+  if (points->GetNumberOfPoints() == 0)
+  {
+    return false;
+  }
+  points->InsertNextPoint(last);
+  this->Path = Polyline(points, nullptr);
+  auto* simulated = vtkSimulatedHapticDevice::SafeDownCast(this->Chosen);
+  simulated->SetSpeed(StrokeSpeed);
+  simulated->LoopOn();
+  return true;
+}
+
+void DeviceChoice::FollowPath(vtkMatrix4x4* deviceToWorld)
+{
+  auto* simulated = vtkSimulatedHapticDevice::SafeDownCast(this->Chosen);
+  if (!simulated || !this->Path)
+  {
+    return;
+  }
+  vtkNew<vtkMatrix4x4> toDevice;
+  vtkMatrix4x4::Invert(deviceToWorld, toDevice);
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (vtkIdType i = 0; i < this->Path->GetNumberOfPoints(); ++i)
+  {
+    double point[4] = { 0.0, 0.0, 0.0, 1.0 };
+    this->Path->GetPoint(i, point);
+    toDevice->MultiplyPoint(point, point);
+    points->InsertNextPoint(point);
+  }
+  simulated->Close();
+  simulated->SetPath(Polyline(points, this->Path->GetPointData()->GetArray("Time")));
+  simulated->SetMotionToPolyline();
+}
+}

@@ -1,0 +1,74 @@
+/**
+ * @class   vtkHapticSurfaceRepresentation
+ * @brief   ParaView's Surface, which also brings its triangles to the client to be touched
+ *
+ * What is drawn is what Surface draws. Besides, each process makes triangles of its piece of the
+ * surface (without ghost cells, lines and vertices) and gives them to the view on a port of their
+ * own, HapticPort. The view brings all pieces to the client with each render, wherever it draws.
+ * GetTouchedActor() has them there.
+ *
+ * Any data whose outside is a surface will do, as for Surface. The blocks of composite data become
+ * one surface; point and cell arrays that all blocks have come along, to be probed.
+ *
+ * While another representation is chosen for the source, or the source is hidden, it cannot be
+ * touched.
+ *
+ * GUI thread.
+ *
+ * @sa vtkPVHapticScene
+ */
+#ifndef vtkHapticSurfaceRepresentation_h
+#define vtkHapticSurfaceRepresentation_h
+
+#include "vtkGeometryRepresentationWithFaces.h"
+#include "vtkHapticsRepresentationsModule.h"
+#include "vtkNew.h"
+#include "vtkSmartPointer.h"
+
+class vtkActor;
+class vtkDataObject;
+class vtkPolyData;
+class vtkTrivialProducer;
+
+class VTKHAPTICSREPRESENTATIONS_EXPORT vtkHapticSurfaceRepresentation
+  : public vtkGeometryRepresentationWithFaces
+{
+public:
+  static vtkHapticSurfaceRepresentation* New();
+  vtkTypeMacro(vtkHapticSurfaceRepresentation, vtkGeometryRepresentationWithFaces);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /** The port of the view that the triangles go through. */
+  static constexpr int HapticPort = 1;
+
+  int ProcessViewRequest(
+    vtkInformationRequestKey* request, vtkInformation* inInfo, vtkInformation* outInfo) override;
+
+  /**
+   * On the client: what is touched, for vtkHapticScene::AddSurface(). An actor in no renderer with
+   * the triangles of all processes and the matrix, visibility and pickability that the
+   * representation has now. Null before the first render, and where nothing was delivered.
+   */
+  vtkActor* GetTouchedActor();
+
+protected:
+  vtkHapticSurfaceRepresentation();
+  ~vtkHapticSurfaceRepresentation() override;
+
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+private:
+  vtkHapticSurfaceRepresentation(const vtkHapticSurfaceRepresentation&) = delete;
+  void operator=(const vtkHapticSurfaceRepresentation&) = delete;
+
+  void Receive(vtkDataObject* delivered);
+
+  vtkSmartPointer<vtkPolyData> LocalTriangles; // another object after each change
+  vtkSmartPointer<vtkDataObject> Delivered;
+  vtkMTimeType DeliveredTime = 0;
+  vtkSmartPointer<vtkActor> Touched; // made when something is delivered
+  vtkNew<vtkTrivialProducer> Producer;
+};
+
+#endif
