@@ -1,8 +1,7 @@
 #include "WorkingSet.h"
 
+#include "FacetBatch.h"
 #include "Predicates.h"
-
-#include <glm/common.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -29,11 +28,6 @@ void Prefetch(const void* address)
 #else
   (void)address;
 #endif
-}
-
-double SquaredDistanceToBox(const Vector& x, const Vector& low, const Vector& high)
-{
-  return SquaredLength(glm::max(glm::max(low - x, x - high), Vector(0.0)));
 }
 }
 
@@ -245,14 +239,6 @@ bool WorkingSet::GatherSegment(const Vector& to, WorkBudget& budget)
   return true;
 }
 
-WorkingSet::Corners WorkingSet::CornersOf(std::int32_t triangle) const
-{
-  const auto& corners = this->Touched->Triangles()[triangle];
-  const auto& points = this->Touched->Points();
-  return { ToVector(points[corners[0]]), ToVector(points[corners[1]]),
-    ToVector(points[corners[2]]) };
-}
-
 Growth WorkingSet::GrowthOf(std::int32_t triangle, double clearance, double wayError) const
 {
   const bool hasBacks = this->Touched->TouchedSide() == Side::Both;
@@ -283,34 +269,34 @@ void WorkingSet::Fill(
       Prefetch(&this->Touched->Points()[corner]);
     }
   }
-  for (std::int32_t k = 0; k < found.Count; ++k)
+  FacetBatch batch;
+  for (std::int32_t start = 0; start < found.Count; start += FacetBatch::Capacity)
   {
-    const std::int32_t id = found.Indices[k];
-    const auto [a, b, c] = this->CornersOf(id);
-    const Vector low = glm::min(a, glm::min(b, c));
-    const Vector high = glm::max(a, glm::max(b, c));
-    if (SquaredDistanceToBox(middle, low, high) > radius * radius)
+    const std::int32_t size = std::min(FacetBatch::Capacity, found.Count - start);
+    for (std::int32_t k = 0; k < size; ++k)
     {
-      continue;
+      const auto [a, b, c] = this->CornersOf(found.Indices[start + k]);
+      batch.Set(k, a, b, c);
     }
-    const Facet facet(a, b, c);
-    const Vector fromCentre = facet.Corner[facet.Anchor] - this->Centre;
-    const double reach = glm::length(fromCentre) + farthest;
-    const double error = facet.DistanceError(reach);
-    if (!facet.HasArea() || facet.IsApartFrom(middle, radius + error))
+    batch.Answer(
+      size, { middle, radius, this->Centre, farthest, this->Position, this->MinimumClearance });
+    for (std::int32_t k = 0; k < size; ++k)
     {
-      continue;
+      if (!batch.Meets(k))
+      {
+        continue;
+      }
+      nearest = std::min(nearest, batch.SquaredDistance(k));
+      const std::int32_t i = this->Count++;
+      this->Triangles[i] = found.Indices[start + k];
+      this->Flipped[i] = 0;
+      this->NormalX[i] = batch.Normal(k, 0);
+      this->NormalY[i] = batch.Normal(k, 1);
+      this->NormalZ[i] = batch.Normal(k, 2);
+      this->PlaneOffset[i] = batch.PlaneOffset(k);
+      this->Error[i] = batch.Error(k);
+      this->Clearance[i] = batch.Clearance(k);
     }
-    nearest = std::min(nearest, SquaredDistanceToBox(this->Position, low, high));
-    const std::int32_t i = this->Count++;
-    this->Triangles[i] = id;
-    this->Flipped[i] = 0;
-    this->NormalX[i] = facet.Normal.x;
-    this->NormalY[i] = facet.Normal.y;
-    this->NormalZ[i] = facet.Normal.z;
-    this->PlaneOffset[i] = glm::dot(facet.Normal, fromCentre);
-    this->Error[i] = error;
-    this->Clearance[i] = facet.Clearance(this->MinimumClearance, reach);
   }
   this->EmptyRadius = 0.0;
   this->GrowEmptyBall(std::sqrt(nearest));
@@ -387,16 +373,27 @@ void WorkingSet::GrowEmptyBall(double nearest)
 
 void WorkingSet::SetLimits()
 {
-  double nearest = HUGE_VAL;
+  const double* const distance = this->Distance.data();
+  const double* const error = this->Error.data();
+  const double* const clearance = this->Clearance.data();
+  double* const limit = this->Limit.data();
   for (std::int32_t i = 0; i < this->Count; ++i)
   {
-    nearest = std::min(nearest, std::abs(this->Distance[i]));
-    // Half the clearance, so that rounding along flat neighbours does not look like a hit.
-    const double limit = std::min(0.5 * this->Clearance[i], this->Distance[i]);
-    this->Limit[i] = this->Distance[i] < -this->Error[i] ? -HUGE_VAL : limit;
+    const double half = 0.5 * clearance[i];
+    const double least = half < distance[i] ? half : distance[i];
+    limit[i] = distance[i] < -error[i] ? -HUGE_VAL : least;
+  }
+  if (this->Covered != Region::Ball)
+  {
+    return;
+  }
+  double nearest = HUGE_VAL;
+  for (std::int32_t i = 0; i < this->Count && nearest > this->Reach; ++i)
+  {
+    nearest = std::min(nearest, std::abs(distance[i]));
   }
   // No triangle is nearer than its plane.
-  if (this->Covered == Region::Ball && nearest > this->Reach)
+  if (nearest > this->Reach)
   {
     this->GrowEmptyBall(nearest);
   }

@@ -90,7 +90,13 @@ private:
   {
     Vector A, B, C;
   };
-  Corners CornersOf(std::int32_t triangle) const;
+  Corners CornersOf(std::int32_t triangle) const
+  {
+    const auto& corners = this->Touched->Triangles()[triangle];
+    const auto& points = this->Touched->Points();
+    return { ToVector(points[corners[0]]), ToVector(points[corners[1]]),
+      ToVector(points[corners[2]]) };
+  }
   Growth GrowthOf(std::int32_t triangle, double clearance, double wayError) const;
   Vector FacetNormal(std::int32_t i) const
   {

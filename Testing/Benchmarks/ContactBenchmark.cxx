@@ -106,15 +106,15 @@ void Stroke(benchmark::State& state, const SurfacePointer& surface, const std::v
   state.counters["contact"] = static_cast<double>(contacts) / times.size();
 }
 
-/// A circle about the middle of a sphere of R = 1 m, 1 mm a tick.
-std::vector<Vec3> Circle(double radius)
+/// A circle about the middle of a sphere of R = 1 m, 1 mm a tick unless said otherwise.
+std::vector<Vec3> Circle(double radius, double step = 1e-3)
 {
   const Vec3 u = Unit(Cross({ 0.3, 0.5, 0.81 }, { 0, 0, 1 }));
   const Vec3 v = Unit(Cross({ 0.3, 0.5, 0.81 }, u));
   std::vector<Vec3> hips;
   for (int tick = 0; tick < Ticks; ++tick)
   {
-    const double a = 1e-3 * tick / radius;
+    const double a = step * tick / radius;
     hips.push_back(radius * (std::cos(a) * u + std::sin(a) * v));
   }
   return hips;
@@ -125,6 +125,15 @@ void SlideOutside(benchmark::State& state)
   const auto hips = Circle(0.98);
   Stroke(state, Sphere(static_cast<int>(state.range(0)), false, EngineKind::Embree),
     { 1.2 * hips[0] }, hips);
+}
+
+/// As many facets a tick on every sphere as SlideOutside meets on the finest: what is left is how
+/// the cost grows with the surface itself.
+void SlideAcrossFacets(benchmark::State& state)
+{
+  const int level = static_cast<int>(state.range(0));
+  const auto hips = Circle(0.98, std::ldexp(1e-3, 8 - level));
+  Stroke(state, Sphere(level, false, EngineKind::Embree), { 1.2 * hips[0] }, hips);
 }
 
 void SlideInside(benchmark::State& state)
@@ -228,6 +237,7 @@ void MakeTouchable(benchmark::State& state)
   Iterations(1)->Repetitions(9)->ReportAggregatesOnly()->Unit(benchmark::kMillisecond)
 
 BENCHMARK(SlideOutside)->HAPTICS_LEVELS->HAPTICS_REPEATED;
+BENCHMARK(SlideAcrossFacets)->HAPTICS_LEVELS->HAPTICS_REPEATED;
 BENCHMARK(SlideInside)->HAPTICS_LEVELS->HAPTICS_REPEATED;
 BENCHMARK(FreeSpace)->HAPTICS_LEVELS->HAPTICS_REPEATED;
 BENCHMARK_CAPTURE(SlideOverFile, frog, "frog")->HAPTICS_REPEATED;
