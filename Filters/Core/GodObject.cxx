@@ -12,7 +12,11 @@ namespace
 /// Fig. 5's two-step transition over a convex edge is made within one update by passes; each lets
 /// go of the planes that held only beyond their facets. Two or three do on a slide; a god-object
 /// that slips off a round body in one tick takes more, and every tick that needs fewer pays none.
+#ifdef HAPTICS_LARGEST_NUMBER_OF_PASSES // by Testing/Benchmarks, to compare
+constexpr int LargestNumberOfPasses = HAPTICS_LARGEST_NUMBER_OF_PASSES;
+#else
 constexpr int LargestNumberOfPasses = 16;
+#endif
 /// A pass meets at most a few facets; more come of rounding.
 constexpr int LargestNumberOfCasts = 12;
 /// A refused motion is tried at 1, 1/2, ... 1/32 of its length.
