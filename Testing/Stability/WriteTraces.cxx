@@ -1,0 +1,69 @@
+// Runs the suite's scenes and writes what happened, for Testing/Benchmarks/charts.py to draw.
+// Usage: HapticsSceneTraces FOLDER      writes scenes.csv and traces.csv there
+#include "AnalyticSurfaces.h"
+#include "Scenes.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <string>
+
+using namespace haptics::testing;
+
+namespace
+{
+/// Rows of one run: more are thinned out, as a chart has no room for them.
+constexpr std::size_t MostRows = 400;
+
+using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+
+File Open(const std::string& name)
+{
+  File file(std::fopen(name.c_str(), "w"), std::fclose);
+  if (!file)
+  {
+    std::perror(name.c_str());
+    std::exit(1);
+  }
+  return file;
+}
+
+void WriteRun(std::FILE* file, const Scene& scene, const char* run, const Trace& trace)
+{
+  const std::size_t every = (trace.size() + MostRows - 1) / MostRows;
+  for (std::size_t i = 0; i < trace.size(); i += every)
+  {
+    const LoopTick& tick = trace[i];
+    std::fprintf(file, "%s,%s,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f\n", scene.Name, run, tick.Time,
+      1e3 * tick.Hip[0], 1e3 * tick.Hip[2], 1e3 * tick.Held[0], 1e3 * tick.Held[2],
+      Dot(tick.Force, scene.Axis));
+  }
+}
+}
+
+int main(int argc, char* argv[])
+{
+  if (argc != 2 || argv[1][0] == '-')
+  {
+    std::printf("Usage: %s FOLDER      writes scenes.csv and traces.csv there\n", argv[0]);
+    return argc == 2 && std::string(argv[1]) == "--help" ? 0 : 2;
+  }
+  const std::string folder = std::string(argv[1]) + "/";
+  const File scenes = Open(folder + "scenes.csv");
+  const File traces = Open(folder + "traces.csv");
+  std::fputs("scene,title,ours,other,component\n", scenes.get());
+  std::fputs("scene,run,time_s,hip_x_mm,hip_z_mm,held_x_mm,held_z_mm,force_n\n", traces.get());
+  for (const Scene& scene : AllScenes())
+  {
+    std::fprintf(scenes.get(), "%s,\"%s\",\"%s\",\"%s\",%s\n", scene.Name, scene.Title,
+      scene.OursLabel, scene.OtherLabel, scene.Axis[0] == 1.0 ? "x" : "z");
+    for (const auto& [x, z] : scene.Profile)
+    {
+      std::fprintf(traces.get(), "%s,surface,0,%.4f,%.4f,0,0,0\n", scene.Name, 1e3 * x, 1e3 * z);
+    }
+    WriteRun(traces.get(), scene, "ours", scene.Ours());
+    WriteRun(traces.get(), scene, "other", scene.Other());
+  }
+  return 0;
+}
