@@ -30,7 +30,6 @@ constexpr double ShaftRadius = 0.3;
 constexpr double TipRadius = 0.75;
 constexpr double TipLength = 2.0;
 constexpr double ReferenceArrowLength = 12.0;
-constexpr double DefaultSize = 0.012; // of the view's height
 
 bool AllFinite(const double v[3])
 {
@@ -112,14 +111,6 @@ vtkGodObjectActor::vtkGodObjectActor()
   Give(this->ForceTipPart, tip->GetOutputPort(), 0.92, 0.22, 0.15);
   this->ForceTipPart->SetProperty(this->ForceShaftPart->GetProperty());
 
-  vtkNew<vtkPolyDataMapper> trailMapper;
-  trailMapper->SetInputData(this->Trail);
-  this->TrailPart->SetMapper(trailMapper);
-  this->TrailPart->PickableOff();
-  vtkProperty* trail = this->TrailPart->GetProperty();
-  trail->SetColor(1.0, 0.62, 0.1);
-  trail->SetLineWidth(3.0f);
-  trail->RenderLinesAsTubesOn();
   this->MakeMarks();
 }
 
@@ -263,15 +254,7 @@ void vtkGodObjectActor::Arrange(vtkViewport* viewport)
     Stretch(this->SpringPart, this->HapticInterfacePoint, spring, length, SpringRadius * radius);
   }
   this->ArrangeForce(radius);
-  // Landmarks are 1.4 times as wide as the god-object's radius, whatever their distance.
-  const double fraction = this->SizeInWorld ? DefaultSize : this->Size;
-  this->ArrangeMarks(1.4 * fraction * viewport->GetSize()[1]);
-
-  if (this->TrailChanged)
-  {
-    this->BuildTrail();
-  }
-  this->TrailPart->SetVisibility(this->ShowTrail && this->Trail->GetNumberOfLines() > 0);
+  this->ArrangeMarks(viewport);
 }
 
 std::vector<vtkActor*> vtkGodObjectActor::Parts() const

@@ -227,8 +227,8 @@ private:
   void BuildTrail();
   void ShowThrough();
   void MakeMarks();
-  void ArrangeMarks(double pixels);
-  void ArrangeLegend();
+  void ArrangeMarks(vtkViewport* viewport);
+  void ArrangeLegend(vtkViewport* viewport);
   std::vector<vtkActor*> Parts() const;
 
   double HapticInterfacePoint[3] = { 0.0, 0.0, 0.0 };

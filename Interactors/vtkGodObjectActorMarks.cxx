@@ -4,22 +4,69 @@
 
 #include "ForceColor.h"
 #include "vtkActor.h"
+#include "vtkCamera.h"
 #include "vtkCellArray.h"
 #include "vtkLookupTable.h"
+#include "vtkMath.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
+#include "vtkRenderer.h"
 #include "vtkScalarBarActor.h"
 #include "vtkShaderProperty.h"
 #include "vtkTextProperty.h"
+#include "vtkUniforms.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 namespace
 {
 constexpr int LegendColors = 128;
+constexpr double DefaultSize = 0.012; // of the view's height
+constexpr double TrianglesLift = 1.0; // [pixel] towards the viewer
+constexpr double TrailLift = 4.0;     // a line's width more: half of it dips into a slope
+constexpr const char* LiftUniform = "hapticsLift";
+
+/// Draws what lies in a surface a little nearer than the surface, by Lift(). VTK's own offset is
+/// one for all mappers of a program, which is not ours to change.
+void DrawTrianglesNearer(vtkActor* part)
+{
+  part->GetShaderProperty()->AddFragmentShaderReplacement("//VTK::Depth::Impl", true,
+    "gl_FragDepth = gl_FragCoord.z - hapticsLift * gl_FragCoord.w;\n", false);
+}
+
+/// As above for tubes and balls, whose round depth VTK has written before this place.
+void DrawRoundNearer(vtkActor* part)
+{
+  part->GetShaderProperty()->AddFragmentShaderReplacement("//VTK::Coincident::Impl", true,
+    "//VTK::Coincident::Impl\n  gl_FragDepth = gl_FragDepth - hapticsLift * gl_FragCoord.w;\n",
+    false);
+}
+
+/// Lifts a part by the width of some pixels, wherever it is: at a distance d in perspective a pixel
+/// is c d wide, the depth buffer's slope goes with 1/d^2, and gl_FragCoord.w is 1/d. In parallel
+/// projection all three are constant.
+void Lift(vtkActor* part, vtkViewport* viewport, double pixels)
+{
+  vtkRenderer* renderer = vtkRenderer::SafeDownCast(viewport);
+  if (!renderer)
+  {
+    return;
+  }
+  vtkCamera* camera = renderer->GetActiveCamera();
+  const double* range = camera->GetClippingRange();
+  const bool parallel = camera->GetParallelProjection() != 0;
+  const double height = parallel
+    ? 2.0 * camera->GetParallelScale()
+    : 2.0 * std::tan(0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle()));
+  const double slope = (parallel ? 1.0 : range[0] * range[1]) / (range[1] - range[0]);
+  const double lift = pixels * height / std::max(1, viewport->GetSize()[1]) * slope;
+  part->GetShaderProperty()->GetFragmentCustomUniforms()->SetUniformf(
+    LiftUniform, static_cast<float>(lift));
+}
 
 bool AllFinite(const double v[3])
 {
@@ -93,15 +140,22 @@ void vtkGodObjectActor::BuildTrail()
 
 void vtkGodObjectActor::MakeMarks()
 {
+  vtkNew<vtkPolyDataMapper> trail;
+  trail->SetInputData(this->Trail);
+  this->TrailPart->SetMapper(trail);
+  this->TrailPart->PickableOff();
+  DrawRoundNearer(this->TrailPart);
+  vtkProperty* line = this->TrailPart->GetProperty();
+  line->SetColor(1.0, 0.62, 0.1);
+  line->SetLineWidth(3.0f);
+  line->RenderLinesAsTubesOn();
+
   vtkNew<vtkPolyDataMapper> triangles;
   triangles->SetInputData(this->Triangles);
   triangles->ScalarVisibilityOff();
   this->TrianglesPart->SetMapper(triangles);
   this->TrianglesPart->PickableOff();
-  // A little nearer than the surface in which they lie. VTK's own offset is one for all mappers of
-  // a program, which is not ours to change.
-  this->TrianglesPart->GetShaderProperty()->AddFragmentShaderReplacement(
-    "//VTK::Depth::Impl", true, "gl_FragDepth = 0.9995 * gl_FragCoord.z;\n", false);
+  DrawTrianglesNearer(this->TrianglesPart);
   vtkProperty* look = this->TrianglesPart->GetProperty();
   look->SetColor(1.0, 0.86, 0.42);
   look->LightingOff();
@@ -115,23 +169,35 @@ void vtkGodObjectActor::MakeMarks()
   this->LandmarksPart->SetMapper(landmarks);
   this->LandmarksPart->GetProperty()->RenderPointsAsSpheresOn();
   this->LandmarksPart->PickableOff();
+  DrawRoundNearer(this->LandmarksPart);
   this->LandmarksPart->GetProperty()->SetColor(0.10, 0.55, 0.75);
   this->LandmarksPart->GetProperty()->SetAmbient(0.3);
 }
 
-void vtkGodObjectActor::ArrangeMarks(double pixels)
+void vtkGodObjectActor::ArrangeMarks(vtkViewport* viewport)
 {
+  // Landmarks are 1.4 times as wide as the god-object's radius, whatever their distance.
+  const double pixels =
+    1.4 * (this->SizeInWorld ? DefaultSize : this->Size) * viewport->GetSize()[1];
+  if (this->TrailChanged)
+  {
+    this->BuildTrail();
+  }
+  this->TrailPart->SetVisibility(this->ShowTrail && this->Trail->GetNumberOfLines() > 0);
+  Lift(this->TrailPart, viewport, TrailLift);
+  Lift(this->LandmarksPart, viewport, TrailLift);
+  Lift(this->TrianglesPart, viewport, TrianglesLift);
   this->TrianglesPart->SetVisibility(
     this->ShowActiveTriangles && this->Touching && this->Triangles->GetNumberOfPolys() > 0);
   this->LandmarksPart->SetVisibility(this->Landmarks->GetNumberOfPoints() > 0);
   this->LandmarksPart->GetProperty()->SetPointSize(static_cast<float>(pixels));
   if (this->ShowLegend)
   {
-    this->ArrangeLegend();
+    this->ArrangeLegend(viewport);
   }
 }
 
-void vtkGodObjectActor::ArrangeLegend()
+void vtkGodObjectActor::ArrangeLegend(vtkViewport* viewport)
 {
   if (!this->Legend)
   {
@@ -150,12 +216,8 @@ void vtkGodObjectActor::ArrangeLegend()
     this->Legend->SetNumberOfLabels(4);
     this->Legend->SetLabelFormat("%.1f");
     this->Legend->UnconstrainedFontSizeOn();
-    this->Legend->SetWidth(0.13);
-    this->Legend->SetHeight(0.42);
-    this->Legend->SetMaximumWidthInPixels(70);
-    this->Legend->SetMaximumHeightInPixels(260);
+    this->Legend->SetBarRatio(0.22);
     this->Legend->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
-    this->Legend->SetPosition(0.86, 0.54);
     for (vtkTextProperty* text :
       { this->Legend->GetTitleTextProperty(), this->Legend->GetLabelTextProperty() })
     {
@@ -167,6 +229,12 @@ void vtkGodObjectActor::ArrangeLegend()
     }
   }
   this->Legend->GetLookupTable()->SetRange(0.0, this->ReferenceForce);
+  // At the upper right; wide enough for its title, whatever the view's size.
+  const double width = std::min(1.0, 74.0 / std::max(1, viewport->GetSize()[0]));
+  const double height = std::min(0.42, 260.0 / std::max(1, viewport->GetSize()[1]));
+  this->Legend->SetWidth(width);
+  this->Legend->SetHeight(height);
+  this->Legend->SetPosition(1.0 - width, 0.97 - height);
 }
 
 void vtkGodObjectActor::SetActiveTriangles(const double* corners, int numberOfTriangles)

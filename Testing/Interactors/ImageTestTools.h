@@ -5,6 +5,7 @@
 #include "vtkActor.h"
 #include "vtkCamera.h"
 #include "vtkGodObjectActor.h"
+#include "vtkHapticScene.h"
 #include "vtkNew.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
@@ -12,7 +13,11 @@
 #include "vtkRenderWindow.h"
 #include "vtkRenderWindowInteractor.h"
 #include "vtkRenderer.h"
+#include "vtkSimulatedHapticDevice.h"
+#include "vtkSmartPointer.h"
 #include "vtkSphereSource.h"
+
+#include <algorithm>
 
 struct TestBall
 {
@@ -31,6 +36,48 @@ struct TestBall
   vtkNew<vtkActor> Actor;
 };
 
+inline vtkSmartPointer<vtkActor> MakeActor(vtkAlgorithmOutput* geometry)
+{
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(geometry);
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetColor(0.55, 0.65, 0.75);
+  return actor;
+}
+
+/// A hand in virtual time that strokes surfaces along straight lines. Device frame = world frame.
+struct TestHand
+{
+  TestHand()
+  {
+    this->Scene->SetDevice(this->Device);
+    this->Scene->SetStiffness(150.0);
+    this->Scene->GetGodObjectActor()->SetSize(0.03);
+  }
+
+  /// Goes straight on from where it is, in 250 ticks; the first time it begins there.
+  void MoveTo(double x, double y, double z)
+  {
+    const double to[3] = { x, y, z };
+    const bool began = this->Began;
+    this->Began = true;
+    for (int tick = began ? 1 : 250; tick <= 250; ++tick)
+    {
+      const double s = tick / 250.0;
+      this->Device->SetPosition(this->At[0] + s * (to[0] - this->At[0]),
+        this->At[1] + s * (to[1] - this->At[1]), this->At[2] + s * (to[2] - this->At[2]));
+      this->Scene->Step(1);
+    }
+    std::copy(to, to + 3, this->At);
+  }
+
+  vtkNew<vtkSimulatedHapticDevice> Device;
+  vtkNew<vtkHapticScene> Scene;
+  double At[3] = { 0.0, 0.0, 0.0 };
+  bool Began = false;
+};
+
 struct TestPicture
 {
   TestPicture(vtkActor* surface, vtkGodObjectActor* hand)
@@ -45,13 +92,13 @@ struct TestPicture
     this->Interactor->SetRenderWindow(this->Window);
   }
 
-  void LookFrom(double x, double y, double z)
+  void LookFrom(double x, double y, double z, double zoom = 1.0)
   {
     vtkCamera* const camera = this->Renderer->GetActiveCamera();
     camera->SetPosition(x, y, z);
     camera->SetViewUp(0.0, 0.0, 1.0);
     this->Renderer->ResetCamera();
-    camera->Zoom(1.3);
+    camera->Zoom(zoom);
   }
 
   /// Renders and compares with the baseline; what a test's main returns.

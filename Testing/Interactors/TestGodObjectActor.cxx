@@ -31,6 +31,6 @@ int TestGodObjectActor(int argc, char* argv[])
   }
 
   TestPicture picture(bump.Actor, hand);
-  picture.LookFrom(0.05, -0.2, 0.25);
+  picture.LookFrom(0.05, -0.2, 0.25, 1.3);
   return picture.Compare(argc, argv);
 }

@@ -29,7 +29,7 @@ int TestMarks(int argc, char* argv[])
   {
     const double s = tick / 400.0;
     const double reach = s < 0.05 ? 0.07 : 0.04;
-    const double angle = 2.4 - 1.5 * s;
+    const double angle = 2.5 - 1.3 * s;
     device->SetPosition(
       reach * std::cos(angle), -0.6 * reach * std::sin(angle), 0.8 * reach * std::sin(angle));
     scene->Step(1);
