@@ -5,9 +5,9 @@
 #     SERIAL: nothing else runs beside it, for tests that measure time. FIXTURE: what has to run
 #     before, by the name in that test's FIXTURES_SETUP.
 #
-#   haptics_add_python_test(<name> <script> [ARGS <arg>...] [PVPYTHON] [SERIAL])
+#   haptics_add_python_test(<name> <script> [ARGS <arg>...] [PVPYTHON] [SERIAL] [FIXTURE <fixture>])
 #     A script run by python3, or by pvpython, that finds the package vtkhaptics and fails with
-#     a non-zero exit. PVPYTHON needs the ParaView build.
+#     a non-zero exit; with 77 it is skipped. PVPYTHON needs the ParaView build.
 #
 # C++ image tests use VTK's own vtk_add_test_cxx() and vtk_test_cxx_executable().
 
@@ -44,7 +44,7 @@ function (haptics_add_gtest name)
 endfunction ()
 
 function (haptics_add_python_test name script)
-  cmake_parse_arguments(PARSE_ARGV 2 arg "PVPYTHON;SERIAL" "" "ARGS")
+  cmake_parse_arguments(PARSE_ARGV 2 arg "PVPYTHON;SERIAL" "FIXTURE" "ARGS")
   if (arg_PVPYTHON)
     set(interpreter "$<TARGET_FILE:ParaView::pvpython>" --force-offscreen-rendering)
   else ()
@@ -55,9 +55,11 @@ function (haptics_add_python_test name script)
     COMMAND ${interpreter} "${script}" ${arg_ARGS}
     WORKING_DIRECTORY "${_vtk_build_TEST_OUTPUT_DIRECTORY}")
   set_tests_properties("${name}" PROPERTIES
-    LABELS      "haptics"
-    RUN_SERIAL  "${arg_SERIAL}"
-    ENVIRONMENT "${haptics_test_environment}")
+    LABELS            "haptics"
+    RUN_SERIAL        "${arg_SERIAL}"
+    SKIP_RETURN_CODE  77
+    FIXTURES_REQUIRED "${arg_FIXTURE}"
+    ENVIRONMENT       "${haptics_test_environment}")
 endfunction ()
 
 # Installs into a scratch prefix, then configures, builds and runs Consumer/ against that alone.

@@ -17,9 +17,15 @@ haptics_add_gtest(TestInteractorStyleHaptic
 # Baselines are in Testing/Data/Baseline.
 vtk_add_test_cxx(HapticsImageTests haptics_image_tests
   NO_DATA
+  TestConcaveCorner.cxx
+  TestConvexEdge.cxx
+  TestFreeTouchingPressed.cxx
   TestGodObjectActor.cxx
   TestMarks.cxx
-  TestMouseTouch.cxx)
+  TestMouseTouch.cxx
+  TestOcclusion.cxx
+  TestSeveralSurfaces.cxx
+  TestThinPlate.cxx)
 vtk_test_cxx_executable(HapticsImageTests haptics_image_tests RENDERING_FACTORY)
 target_link_libraries(HapticsImageTests PRIVATE
   Haptics::Devices Haptics::Interactors VTK::FiltersSources VTK::RenderingFreeType

@@ -1,0 +1,34 @@
+// Three balls and three hands. Left: a free hand, one sphere and nothing else. Middle: a light
+// touch, a short arrow. Right: pressed hard, the HIP deep inside at the end of its spring, a long
+// arrow.
+#include "ImageTestTools.h"
+
+int TestFreeTouchingPressed(int argc, char* argv[])
+{
+  const double heights[3] = { 0.045, 0.021, 0.012 }; // of the hand, where the ball's is 0.03
+  TestBall balls[3] = { { 0.03, 40, 40 }, { 0.03, 40, 40 }, { 0.03, 40, 40 } };
+  TestHand touches[3];
+  for (int i = 0; i < 3; ++i)
+  {
+    balls[i].Actor->SetPosition(0.07 * (i - 1), 0.0, 0.0);
+    TestHand& touch = touches[i];
+    touch.Scene->AddSurface(balls[i].Actor);
+    touch.MoveTo(0.07 * (i - 1) - 0.005, -0.01, 0.05);
+    touch.MoveTo(0.07 * (i - 1) - 0.005, -0.01, heights[i]);
+    touch.MoveTo(0.07 * (i - 1) + 0.005, -0.01, heights[i]);
+    if (touch.Scene->GetTouching() != (i > 0))
+    {
+      cerr << "Hand " << i << (i > 0 ? " touches nothing." : " is not free.") << endl;
+      return EXIT_FAILURE;
+    }
+  }
+
+  TestPicture picture(balls[0].Actor, touches[0].Scene->GetGodObjectActor());
+  for (int i = 1; i < 3; ++i)
+  {
+    picture.Renderer->AddActor(balls[i].Actor);
+    picture.Renderer->AddViewProp(touches[i].Scene->GetGodObjectActor());
+  }
+  picture.LookFrom(0.0, -0.3, 0.1);
+  return picture.Compare(argc, argv);
+}
