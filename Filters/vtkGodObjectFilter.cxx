@@ -1,8 +1,6 @@
 #include "vtkGodObjectFilter.h"
 
-#include "BuildKey.h"
-#include "PassAttributes.h"
-#include "SurfaceCleaner.h"
+#include "SurfacePreparation.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -13,69 +11,15 @@
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
-#include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkSmartPointer.h"
 #include "vtkStringArray.h"
 
-#include <algorithm>
-#include <utility>
-#include <vector>
-
-namespace
-{
-vtkSmartPointer<vtkIdTypeArray> MakeIdArray(const char* name, const std::vector<vtkIdType>& ids)
-{
-  auto array = vtkSmartPointer<vtkIdTypeArray>::New();
-  array->SetName(name);
-  array->SetNumberOfValues(static_cast<vtkIdType>(ids.size()));
-  std::copy(ids.begin(), ids.end(), array->GetPointer(0));
-  return array;
-}
-
-vtkSmartPointer<vtkPoints> MakePoints(const haptics::TriangleMesh& mesh, int dataType)
-{
-  auto points = vtkSmartPointer<vtkPoints>::New();
-  points->SetDataType(dataType == VTK_FLOAT ? VTK_FLOAT : VTK_DOUBLE);
-  points->SetNumberOfPoints(static_cast<vtkIdType>(mesh.Points.size()));
-  for (std::size_t i = 0; i < mesh.Points.size(); ++i)
-  {
-    points->SetPoint(static_cast<vtkIdType>(i), mesh.Points[i].data());
-  }
-  return points;
-}
-
-vtkSmartPointer<vtkCellArray> MakeCells(const haptics::TriangleMesh& mesh)
-{
-  const auto count = static_cast<vtkIdType>(mesh.Triangles.size());
-  vtkNew<vtkIdTypeArray> offsets;
-  vtkNew<vtkIdTypeArray> connectivity;
-  offsets->SetNumberOfValues(count + 1);
-  connectivity->SetNumberOfValues(3 * count);
-  vtkIdType* corner = connectivity->GetPointer(0);
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    offsets->SetValue(i, 3 * i);
-    corner = std::copy(mesh.Triangles[i].begin(), mesh.Triangles[i].end(), corner);
-  }
-  offsets->SetValue(count, 3 * count);
-  auto cells = vtkSmartPointer<vtkCellArray>::New();
-  cells->SetData(offsets, connectivity);
-  return cells;
-}
-}
+#include <memory>
 
 class vtkGodObjectFilter::vtkInternals
 {
 public:
-  haptics::BuildKey Key;
-  std::shared_ptr<const haptics::TriangleSurface> Surface;
-  haptics::CleaningReport Report;
-  double CrackWidth = 0.0;
-  vtkSmartPointer<vtkPoints> Points;
-  vtkSmartPointer<vtkCellArray> Triangles;
-  vtkSmartPointer<vtkIdTypeArray> OriginalPoints;
-  vtkSmartPointer<vtkIdTypeArray> OriginalCells;
+  std::shared_ptr<const haptics::SurfacePreparation> Built; // null, or with a surface
 };
 
 vtkStandardNewMacro(vtkGodObjectFilter);
@@ -95,61 +39,37 @@ int vtkGodObjectFilter::FillInputPortInformation(int port, vtkInformation* info)
   return this->Superclass::FillInputPortInformation(port, info);
 }
 
-bool vtkGodObjectFilter::Build(vtkPolyData* input)
+haptics::PreparationOptions vtkGodObjectFilter::GetOptions() const
+{
+  haptics::PreparationOptions options;
+  options.Cleaning = { this->MergeTolerance, this->MergeToleranceIsAbsolute };
+  options.TouchedSide = static_cast<haptics::Side>(this->Side);
+  options.Engine = static_cast<haptics::EngineKind>(this->Engine);
+  options.AutomaticCrackWidth = this->AutomaticCrackWidth;
+  options.CrackWidth = this->CrackWidth;
+  return options;
+}
+
+bool vtkGodObjectFilter::Take(
+  const std::shared_ptr<haptics::SurfacePreparation>& prepared, haptics::CleaningResult result)
 {
   ++this->NumberOfBuilds;
-  std::string error;
-  haptics::CleanedMesh cleaned;
-  const haptics::CleaningOptions cleaning{ this->MergeTolerance, this->MergeToleranceIsAbsolute };
-  const haptics::CleaningResult result = haptics::CleanSurface(
-    input, cleaning,
-    [this](double fraction)
-    {
-      this->UpdateProgress(fraction);
-      return !this->GetAbortExecute();
-    },
-    cleaned, error);
+  prepared->Finish();
+  this->Internals->Built.reset();
   if (result == haptics::CleaningResult::Aborted)
   {
     return false;
   }
+  if (!prepared->Warning().empty())
+  {
+    vtkWarningMacro(<< prepared->Warning());
+  }
   if (result == haptics::CleaningResult::Failed)
   {
-    vtkErrorMacro(<< error);
+    vtkErrorMacro(<< prepared->Error());
     return false;
   }
-  if (cleaned.Report.FoldedPolygons > 0)
-  {
-    vtkWarningMacro(<< cleaned.Report.FoldedPolygons << " polygons cross themselves, the first is "
-                    << "cell " << cleaned.Report.FirstFoldedCell
-                    << ". They were split into fans, which may not feel as they look.");
-  }
-  vtkInternals& built = *this->Internals;
-  const int dataType = input->GetPoints()->GetDataType();
-  built.Report = cleaned.Report;
-  built.Points = MakePoints(cleaned.Mesh, dataType);
-  built.Triangles = MakeCells(cleaned.Mesh);
-  built.OriginalPoints = MakeIdArray("OriginalPointId", cleaned.OriginalPoint);
-  built.OriginalCells = MakeIdArray("OriginalCellId", cleaned.OriginalCell);
-  this->UpdateProgress(0.5);
-
-  haptics::SurfaceOptions options;
-  options.TouchedSide = static_cast<haptics::Side>(this->Side);
-  options.Engine = static_cast<haptics::EngineKind>(this->Engine);
-  options.CrackWidth = this->CrackWidth;
-  if (this->AutomaticCrackWidth)
-  {
-    options.CrackWidth = dataType == VTK_FLOAT ? 0x1p-21 * cleaned.LargestCoordinate : 0.0;
-  }
-  built.CrackWidth = options.CrackWidth;
-  built.Surface = haptics::TriangleSurface::Build(std::move(cleaned.Mesh), options, error);
-  if (!built.Surface)
-  {
-    vtkErrorMacro(<< "No surface could be built from the " << cleaned.OriginalCell.size()
-                  << " clean triangles: " << error
-                  << ". Check the input and this filter's properties.");
-    return false;
-  }
+  this->Internals->Built = prepared;
   return true;
 }
 
@@ -160,31 +80,27 @@ int vtkGodObjectFilter::RequestData(
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   if (!input)
   {
-    *this->Internals = vtkInternals();
+    this->Internals->Built.reset();
     vtkErrorMacro("There is no input to touch. Connect a vtkPolyData with polygons or strips.");
     return 1;
   }
-  haptics::BuildKey key = haptics::MakeBuildKey(input,
-    { static_cast<double>(this->Side), static_cast<double>(this->Engine), this->MergeTolerance,
-      this->MergeToleranceIsAbsolute ? 1.0 : 0.0, this->AutomaticCrackWidth ? 1.0 : 0.0,
-      this->CrackWidth });
-  vtkInternals& built = *this->Internals;
-  if (!built.Surface || !(built.Key == key))
+  const haptics::PreparationOptions options = this->GetOptions();
+  if (!this->Internals->Built ||
+    !(this->Internals->Built->Key() == haptics::SurfacePreparation::MakeKey(input, options)))
   {
-    built = vtkInternals();
-    if (!this->Build(input))
+    const auto prepared = std::make_shared<haptics::SurfacePreparation>(input, options);
+    const haptics::CleaningResult result = prepared->Run(
+      [this](double fraction)
+      {
+        this->UpdateProgress(fraction);
+        return !this->GetAbortExecute();
+      });
+    if (!this->Take(prepared, result))
     {
-      built = vtkInternals();
       return 1;
     }
-    built.Key = std::move(key);
   }
-  output->SetPoints(built.Points);
-  output->SetPolys(built.Triangles);
-  const int dropped = haptics::PassAttributes(input->GetPointData(), input->GetNumberOfPoints(),
-                        built.OriginalPoints, output->GetPointData()) +
-    haptics::PassAttributes(
-      input->GetCellData(), input->GetNumberOfCells(), built.OriginalCells, output->GetCellData());
+  const int dropped = this->Internals->Built->Fill(input, output);
   if (dropped > 0)
   {
     vtkWarningMacro(<< dropped << " data arrays of the input are shorter than its points or cells, "
@@ -230,94 +146,96 @@ void vtkGodObjectFilter::AddReport(vtkPolyData* output) const
 
 std::shared_ptr<const haptics::TriangleSurface> vtkGodObjectFilter::GetSurface() const
 {
-  return this->Internals->Surface;
+  return this->Internals->Built ? this->Internals->Built->Surface() : nullptr;
 }
 
 vtkIdType vtkGodObjectFilter::GetNumberOfMergedPoints() const
 {
-  return this->Internals->Report.MergedPoints;
+  return this->Internals->Built ? this->Internals->Built->Report().MergedPoints : 0;
 }
 
 vtkIdType vtkGodObjectFilter::GetNumberOfUnusedPoints() const
 {
-  return this->Internals->Report.UnusedPoints;
+  return this->Internals->Built ? this->Internals->Built->Report().UnusedPoints : 0;
 }
 
 vtkIdType vtkGodObjectFilter::GetNumberOfDegenerateTriangles() const
 {
-  return this->Internals->Report.DegenerateTriangles;
+  return this->Internals->Built ? this->Internals->Built->Report().DegenerateTriangles : 0;
 }
 
 vtkIdType vtkGodObjectFilter::GetNumberOfDuplicateTriangles() const
 {
-  return this->Internals->Report.DuplicateTriangles;
+  return this->Internals->Built ? this->Internals->Built->Report().DuplicateTriangles : 0;
 }
 
 vtkIdType vtkGodObjectFilter::GetNumberOfFoldedPolygons() const
 {
-  return this->Internals->Report.FoldedPolygons;
+  return this->Internals->Built ? this->Internals->Built->Report().FoldedPolygons : 0;
 }
 
 vtkIdType vtkGodObjectFilter::GetNumberOfGhostCells() const
 {
-  return this->Internals->Report.GhostCells;
+  return this->Internals->Built ? this->Internals->Built->Report().GhostCells : 0;
 }
 
 vtkIdType vtkGodObjectFilter::GetNumberOfBoundaryEdges() const
 {
-  return this->Internals->Surface ? this->Internals->Surface->Report().BoundaryEdges : 0;
+  return this->Internals->Built ? this->Internals->Built->Surface()->Report().BoundaryEdges : 0;
 }
 
 vtkIdType vtkGodObjectFilter::GetNumberOfNonManifoldEdges() const
 {
-  return this->Internals->Surface ? this->Internals->Surface->Report().NonManifoldEdges : 0;
+  return this->Internals->Built ? this->Internals->Built->Surface()->Report().NonManifoldEdges : 0;
 }
 
 vtkIdType vtkGodObjectFilter::GetNumberOfFlippedEdges() const
 {
-  return this->Internals->Surface ? this->Internals->Surface->Report().FlippedEdges : 0;
+  return this->Internals->Built ? this->Internals->Built->Surface()->Report().FlippedEdges : 0;
 }
 
 vtkIdType vtkGodObjectFilter::GetNumberOfComponents() const
 {
-  return this->Internals->Surface ? this->Internals->Surface->Report().Components : 0;
+  return this->Internals->Built ? this->Internals->Built->Surface()->Report().Components : 0;
 }
 
 vtkIdType vtkGodObjectFilter::GetNumberOfInsideOutComponents() const
 {
-  return this->Internals->Surface ? this->Internals->Surface->Report().InsideOutComponents : 0;
+  return this->Internals->Built ? this->Internals->Built->Surface()->Report().InsideOutComponents
+                                : 0;
 }
 
 bool vtkGodObjectFilter::GetClosed() const
 {
-  return this->Internals->Surface && this->Internals->Surface->Report().Closed;
+  return this->Internals->Built && this->Internals->Built->Surface()->Report().Closed;
 }
 
 bool vtkGodObjectFilter::GetOriented() const
 {
-  return this->Internals->Surface && this->Internals->Surface->Report().Oriented;
+  return this->Internals->Built && this->Internals->Built->Surface()->Report().Oriented;
 }
 
 int vtkGodObjectFilter::GetTouchedSide() const
 {
-  return this->Internals->Surface ? static_cast<int>(this->Internals->Surface->TouchedSide())
-                                  : static_cast<int>(FRONT);
+  return this->Internals->Built ? static_cast<int>(this->Internals->Built->Surface()->TouchedSide())
+                                : static_cast<int>(FRONT);
 }
 
 int vtkGodObjectFilter::GetEngineInUse() const
 {
-  return this->Internals->Surface ? static_cast<int>(this->Internals->Surface->Engine().Kind())
-                                  : static_cast<int>(AUTOMATIC_ENGINE);
+  return this->Internals->Built
+    ? static_cast<int>(this->Internals->Built->Surface()->Engine().Kind())
+    : static_cast<int>(AUTOMATIC_ENGINE);
 }
 
 double vtkGodObjectFilter::GetCrackWidthInUse() const
 {
-  return this->Internals->CrackWidth;
+  return this->Internals->Built ? this->Internals->Built->CrackWidth() : 0.0;
 }
 
 const char* vtkGodObjectFilter::GetTouchedSideAsString() const
 {
-  if (!this->Internals->Surface)
+  if (!this->Internals->Built)
   {
     return "";
   }
@@ -342,12 +260,13 @@ void vtkGodObjectFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "AutomaticCrackWidth: " << (this->AutomaticCrackWidth ? "On\n" : "Off\n");
   os << indent << "CrackWidth: " << this->CrackWidth << "\n";
   os << indent << "NumberOfBuilds: " << this->NumberOfBuilds << "\n";
-  if (!this->Internals->Surface)
+  if (!this->Internals->Built)
   {
     os << indent << "Surface: (none)\n";
     return;
   }
-  os << indent << "Surface: " << this->Internals->Surface->Triangles().size() << " triangles\n";
+  os << indent << "Surface: " << this->Internals->Built->Surface()->Triangles().size()
+     << " triangles\n";
   os << indent << "TouchedSide: " << this->GetTouchedSideAsString() << "\n";
   os << indent << "EngineInUse: " << this->GetEngineInUseAsString() << "\n";
   os << indent << "CrackWidthInUse: " << this->GetCrackWidthInUse() << "\n";

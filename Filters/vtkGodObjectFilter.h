@@ -43,7 +43,8 @@
 #include "vtkPolyDataAlgorithm.h"
 
 #ifndef __VTK_WRAP__
-#include "TriangleSurface.h" // for haptics::TriangleSurface
+#include "SurfacePreparation.h" // for haptics::SurfacePreparation
+#include "TriangleSurface.h"    // for haptics::TriangleSurface
 
 #include <memory> // for std::shared_ptr
 #endif
@@ -128,6 +129,17 @@ public:
    * @brief The surface as of the last Update(); null before, and after an error or an abort.
    */
   std::shared_ptr<const haptics::TriangleSurface> GetSurface() const;
+
+  ///@{
+  /**
+   * @brief To build on another thread, in C++ only: make a haptics::SurfacePreparation with
+   * GetOptions(), Run() it elsewhere, and Take() it with its result. Take() reports errors and
+   * warnings as Update() does, and returns whether there is a surface. The output is not made.
+   */
+  haptics::PreparationOptions GetOptions() const;
+  bool Take(
+    const std::shared_ptr<haptics::SurfacePreparation>& prepared, haptics::CleaningResult result);
+  ///@}
 #endif
 
   /**
@@ -180,7 +192,6 @@ private:
   class vtkInternals;
   std::unique_ptr<vtkInternals> Internals;
 
-  bool Build(vtkPolyData* input);
   void AddReport(vtkPolyData* output) const;
 
   int Side = AUTOMATIC_SIDE;

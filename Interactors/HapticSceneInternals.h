@@ -1,6 +1,7 @@
 #ifndef HapticSceneInternals_h
 #define HapticSceneInternals_h
 
+#include "BackgroundWorker.h"
 #include "SceneEvents.h"
 #include "SurfaceSet.h"
 #include "TickRecord.h"
@@ -14,7 +15,11 @@
 class vtkHapticScene::Internals
 {
 public:
+  haptics::BackgroundWorker Worker; // outlives the surfaces that give it work
   haptics::SurfaceSet Surfaces;
+  bool BackgroundBuilding = false;
+  bool WasBuilding = false; ///< as observers were told last
+  double BuildProgress = 1.0;
   haptics::TraceRecorder Recorder;
   haptics::SceneEvents Events;
   int DeviceState = 0;

@@ -2,17 +2,15 @@
 
 #include "vtkActor.h"
 #include "vtkAlgorithmOutput.h"
+#include "vtkBoundingBox.h"
 #include "vtkCallbackCommand.h"
-#include "vtkCellData.h"
 #include "vtkCommand.h"
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkGodObjectFilter.h"
 #include "vtkIdTypeArray.h"
 #include "vtkMapper.h"
-#include "vtkMatrix4x4.h"
 #include "vtkPolyData.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -33,7 +31,10 @@ HapticSurface::HapticSurface(int id, vtkAlgorithmOutput* geometry)
   this->ListenToErrors();
 }
 
-HapticSurface::~HapticSurface() = default;
+HapticSurface::~HapticSurface()
+{
+  this->CancelBuild();
+}
 
 void HapticSurface::ListenToErrors()
 {
@@ -71,7 +72,6 @@ bool HapticSurface::Connect(std::string& error)
                      : "the actor has no mapper; give it one";
       return false;
     }
-    this->Source->GetMatrix(this->Matrix);
   }
   if (this->Preparation->GetNumberOfInputConnections(0) == 0 ||
     this->Preparation->GetInputConnection(0, 0) != geometry)
@@ -89,17 +89,30 @@ HapticSurface::Version HapticSurface::Current()
     vtkDemandDrivenPipeline::SafeDownCast(this->Preparation->GetExecutive());
   pipeline->UpdatePipelineMTime();
   version.Pipeline = pipeline->GetPipelineMTime();
-  std::copy_n(this->Matrix->GetData(), 16, version.Matrix.begin());
   return version;
 }
 
-bool HapticSurface::Pull(std::string& error)
+Matrix4 HapticSurface::CurrentMatrix()
+{
+  Matrix4 matrix = IdentityMatrix;
+  if (this->Source)
+  {
+    this->Source->GetMatrix(matrix.data());
+  }
+  return matrix;
+}
+
+bool HapticSurface::Pull(const PullSettings& settings, std::string& error)
 {
   const Snapshot before = this->Touched();
   this->Shown = !this->Source || (this->Source->GetVisibility() && this->Source->GetPickable());
-  if (!this->Shown)
+  if (this->Build && this->Build->IsDone())
   {
-    return before != nullptr;
+    this->TakeBuild(error);
+  }
+  if (!this->Shown || this->Build)
+  {
+    return this->Touched() != before;
   }
   std::string connectError;
   if (!this->Connect(connectError))
@@ -114,123 +127,162 @@ bool HapticSurface::Pull(std::string& error)
   this->LastConnectError.clear();
 
   const Version version = this->Current();
-  if (!this->Tried || !(version == this->LastTried))
+  const Matrix4 matrix = this->CurrentMatrix();
+  const bool isNew = !this->Tried || !(version == this->LastTried);
+  const bool hasMoved = matrix != this->LastMatrix;
+  this->Tried = true;
+  this->LastTried = version;
+  this->LastMatrix = matrix;
+  if (isNew)
   {
-    this->Tried = true;
-    this->LastTried = version;
-    this->Build(error);
+    this->FollowGeometry(settings, error);
+  }
+  else if (hasMoved && this->InForce)
+  {
+    this->FollowMatrix(settings, error);
   }
   return this->Touched() != before;
 }
 
-bool HapticSurface::Build(std::string& error)
+void HapticSurface::FollowGeometry(const PullSettings& settings, std::string& error)
 {
   vtkAlgorithm* producer = this->Preparation->GetInputAlgorithm();
   const int port = this->Preparation->GetInputConnection(0, 0)->GetIndex();
   producer->Update(port);
-  vtkDataObject* geometry = producer->GetOutputDataObject(port);
-  if (!vtkPolyData::SafeDownCast(geometry))
+  vtkDataObject* output = producer->GetOutputDataObject(port);
+  vtkPolyData* geometry = vtkPolyData::SafeDownCast(output);
+  if (!geometry)
   {
-    error = std::string("the geometry is ") + (geometry ? geometry->GetClassName() : "missing") +
+    error = std::string("the geometry is ") + (output ? output->GetClassName() : "missing") +
       ", not vtkPolyData; put a vtkGeometryFilter before it";
-    return false;
+    return;
   }
-  this->PreparationError.clear();
-  this->Preparation->Update();
-  const Snapshot local = this->Preparation->GetSurface();
-  if (!local)
+  const PreparationOptions options = this->Preparation->GetOptions();
+  if (this->Base && this->Base->Key() == SurfacePreparation::MakeKey(geometry, options))
   {
-    error = this->PreparationError;
-    return false;
+    this->KeepAttributes(geometry); // a colour has changed, or the like
+    if (this->LastMatrix != this->Baked)
+    {
+      this->FollowMatrix(settings, error);
+    }
+    return;
   }
-  std::array<double, 16> matrix;
-  std::copy_n(this->Matrix->GetData(), 16, matrix.begin());
-  if (local == this->Untransformed && matrix == this->MatrixInForce)
-  {
-    this->KeepPrepared();
-    return true; // a colour has changed, or the like
-  }
-  Snapshot built = this->Matrix->IsIdentity() ? local : this->Transform(local, error);
-  if (!built)
-  {
-    return false;
-  }
-  if (local != this->Untransformed)
-  {
-    this->KeepCellIds();
-  }
-  this->InForce = std::move(built);
-  this->Untransformed = local;
-  this->MatrixInForce = matrix;
-  this->KeepPrepared();
-  return true;
+  this->BuildInput = vtkSmartPointer<vtkPolyData>::New();
+  this->BuildInput->ShallowCopy(geometry);
+  this->StartBuild(
+    settings, std::make_shared<SurfacePreparation>(geometry, options), this->LastMatrix, error);
 }
 
-void HapticSurface::KeepPrepared()
+void HapticSurface::FollowMatrix(const PullSettings& settings, std::string& error)
+{
+  this->BuildInput = nullptr;
+  this->StartBuild(settings, this->Base, this->LastMatrix, error);
+}
+
+void HapticSurface::StartBuild(const PullSettings& settings,
+  std::shared_ptr<SurfacePreparation> preparation, const Matrix4& matrix, std::string& error)
+{
+  const double determinant = Determinant(matrix);
+  if (!std::isfinite(determinant) || determinant == 0.0)
+  {
+    error = "the actor's matrix flattens it or is not finite; check its scale and user matrix";
+    return;
+  }
+  this->Build = std::make_shared<SurfaceBuild>(std::move(preparation), matrix);
+  if (settings.Worker)
+  {
+    if (this->Build->Prepares())
+    {
+      this->Build->Preparation()->CopyPoints();
+    }
+    settings.Worker->Start(this->Build);
+    return;
+  }
+  this->Build->SetProgressCall(
+    [this](double fraction)
+    {
+      this->Preparation->UpdateProgress(fraction);
+      return !this->Preparation->GetAbortExecute();
+    });
+  this->Build->Run();
+  this->TakeBuild(error);
+}
+
+void HapticSurface::TakeBuild(std::string& error)
+{
+  const std::shared_ptr<SurfaceBuild> done = std::exchange(this->Build, nullptr);
+  this->PreparationError.clear();
+  // What failed after the preparation is not its business.
+  const bool isPrepared = done->Preparation()->Surface() != nullptr;
+  if (done->Prepares() && (isPrepared || done->Error().empty()))
+  {
+    this->Preparation->Take(
+      done->Preparation(), isPrepared ? CleaningResult::Done : done->Result());
+  }
+  if (!done->Snapshot())
+  {
+    error = done->Error().empty() ? this->PreparationError : done->Error();
+    return;
+  }
+  const bool isOtherGeometry = done->Preparation() != this->Base;
+  this->InForce = done->Snapshot();
+  this->Base = done->Preparation();
+  this->Baked = done->Matrix();
+  if (isOtherGeometry)
+  {
+    this->KeepCellIds();
+    this->KeepAttributes(this->BuildInput);
+  }
+}
+
+void HapticSurface::CancelBuild()
+{
+  if (this->Build)
+  {
+    this->Build->Cancel();
+    this->Build.reset();
+  }
+}
+
+void HapticSurface::AddBounds(vtkBoundingBox& box) const
+{
+  if (const Snapshot touched = this->Touched())
+  {
+    const Vec3& origin = touched->Origin();
+    for (const Vec3& point : touched->Points())
+    {
+      box.AddPoint(point[0] + origin[0], point[1] + origin[1], point[2] + origin[2]);
+    }
+  }
+  else if (this->Build && this->BuildInput)
+  {
+    vtkBoundingBox local(this->BuildInput->GetBounds());
+    for (int i = 0; i < 8; ++i)
+    {
+      Vec3 corner;
+      local.GetCorner(i, corner.data());
+      box.AddPoint(Transformed(this->Build->Matrix(), corner).data());
+    }
+  }
+}
+
+void HapticSurface::KeepAttributes(vtkPolyData* geometry)
 {
   this->Kept = vtkSmartPointer<vtkPolyData>::New();
-  this->Kept->ShallowCopy(this->Preparation->GetOutput());
+  const int dropped = this->Base->Fill(geometry, this->Kept);
+  if (dropped > 0)
+  {
+    vtkWarningWithObjectMacro(this->Preparation,
+      << dropped << " data arrays of the geometry are shorter than its points or cells, "
+      << "and were left out.");
+  }
 }
 
 void HapticSurface::KeepCellIds()
 {
   auto ids = std::make_shared<std::vector<vtkIdType>>();
-  vtkDataArray* array = this->Preparation->GetOutput()->GetCellData()->GetArray("OriginalCellId");
-  const vtkIdType count = array ? array->GetNumberOfTuples() : 0;
-  ids->reserve(static_cast<std::size_t>(count));
-  if (vtkIdTypeArray* exact = vtkIdTypeArray::SafeDownCast(array))
-  {
-    ids->assign(exact->GetPointer(0), exact->GetPointer(0) + count);
-  }
-  else
-  {
-    for (vtkIdType i = 0; i < count; ++i)
-    {
-      ids->push_back(static_cast<vtkIdType>(array->GetComponent(i, 0)));
-    }
-  }
+  vtkIdTypeArray* array = this->Base->OriginalCells();
+  ids->assign(array->GetPointer(0), array->GetPointer(0) + array->GetNumberOfValues());
   this->Ids = std::move(ids);
-}
-
-HapticSurface::Snapshot HapticSurface::Transform(const Snapshot& local, std::string& error) const
-{
-  const double determinant = this->Matrix->Determinant();
-  if (!std::isfinite(determinant) || determinant == 0.0)
-  {
-    error = "the actor's matrix flattens it or is not finite; check its scale and user matrix";
-    return nullptr;
-  }
-  const auto& m = this->Matrix->Element;
-  TriangleMesh mesh;
-  mesh.Triangles = local->Triangles();
-  mesh.Points.reserve(local->Points().size());
-  for (const Vec3& p : local->Points())
-  {
-    const Vec3& o = local->Origin();
-    const double x = p[0] + o[0];
-    const double y = p[1] + o[1];
-    const double z = p[2] + o[2];
-    mesh.Points.push_back({ m[0][0] * x + m[0][1] * y + m[0][2] * z + m[0][3],
-      m[1][0] * x + m[1][1] * y + m[1][2] * z + m[1][3],
-      m[2][0] * x + m[2][1] * y + m[2][2] * z + m[2][3] });
-  }
-  if (determinant < 0.0) // a mirror turns every front into a back
-  {
-    for (Triangle& triangle : mesh.Triangles)
-    {
-      std::swap(triangle[1], triangle[2]);
-    }
-  }
-  double longest = 0.0;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    longest = std::max(longest, std::hypot(m[0][axis], m[1][axis], m[2][axis]));
-  }
-  SurfaceOptions options;
-  options.TouchedSide = local->TouchedSide();
-  options.Engine = local->Engine().Kind();
-  // The longest axis bounds how a gap grows up to a factor of sqrt(3).
-  options.CrackWidth = this->Preparation->GetCrackWidthInUse() * longest * std::sqrt(3.0);
-  return TriangleSurface::Build(std::move(mesh), options, error);
 }
 }

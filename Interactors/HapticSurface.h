@@ -1,6 +1,7 @@
 #ifndef HapticSurface_h
 #define HapticSurface_h
 
+#include "SurfaceBuild.h"
 #include "TriangleSurface.h"
 #include "vtkActor.h"
 #include "vtkNew.h"
@@ -8,24 +9,29 @@
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
-#include <array>
 #include <memory>
 #include <string>
 #include <vector>
 
 class vtkAlgorithm;
 class vtkAlgorithmOutput;
+class vtkBoundingBox;
 class vtkGodObjectFilter;
-class vtkMatrix4x4;
 class vtkObject;
 
 namespace haptics
 {
+/// How the surfaces of a scene take in what has changed.
+struct PullSettings
+{
+  /// Builds beside the GUI thread; null: each Pull() builds what it needs.
+  BackgroundWorker* Worker = nullptr;
+};
+
 /// @brief One surface of a vtkHapticScene: where it comes from and the snapshot in force.
 ///
-/// The geometry goes through a vtkGodObjectFilter of its own, the actor's matrix is applied to
-/// what the filter built: so an actor that moves costs a new engine, but no second clean-up. GUI
-/// thread.
+/// The geometry is prepared as a vtkGodObjectFilter of its own says, the actor's matrix is applied
+/// to what came out: so an actor that moves costs a new engine, but no second clean-up. GUI thread.
 class HapticSurface
 {
 public:
@@ -36,7 +42,10 @@ public:
   HapticSurface(int id, vtkActor* actor);
   /// A surface in the world frame that follows a pipeline.
   HapticSurface(int id, vtkAlgorithmOutput* geometry);
+  /// Asks for the end of a build, and does not wait for it.
   ~HapticSurface();
+  HapticSurface(const HapticSurface&) = delete;
+  HapticSurface& operator=(const HapticSurface&) = delete;
 
   int Id() const { return this->Identifier; }
   vtkActor* Actor() const { return this->Source; }
@@ -45,10 +54,20 @@ public:
   /// Takes in what has changed since the last call. True where another snapshot is in force now
   /// than before, or the surface was shown or hidden. Where the new geometry is no good, `error`
   /// tells why, once for each change, and the snapshot in force stays.
-  bool Pull(std::string& error);
+  ///
+  /// With a worker a changed geometry is built beside; it comes into force at a call after that.
+  /// What changes meanwhile is built next, in its newest state.
+  bool Pull(const PullSettings& settings, std::string& error);
+
+  /// The build beside the GUI thread; null while there is none.
+  const BackgroundTask* Building() const { return this->Build.get(); }
+  /// Gives up the build: what is in force stays until the geometry changes again.
+  void CancelBuild();
 
   /// What is touched; null while the surface is hidden or was never any good.
   Snapshot Touched() const { return this->Shown ? this->InForce : nullptr; }
+  /// Adds the world's bounds of what is touched, or while that is null of what is being built.
+  void AddBounds(vtkBoundingBox& box) const;
   /// The geometry in force, its triangles in the snapshot's order, with its arrays as they were at
   /// the last Pull(); not moved by the actor's matrix. Null where it was never any good.
   vtkPolyData* Prepared() const { return this->Kept; }
@@ -56,27 +75,29 @@ public:
   CellIds OriginalCellIds() const { return this->Ids; }
 
 private:
-  /// Everything that a snapshot depends on, to see whether it has changed.
+  /// Everything that a geometry depends on, to see whether it has changed.
   struct Version
   {
     vtkAlgorithmOutput* Geometry = nullptr;
     vtkMTimeType Pipeline = 0;
-    std::array<double, 16> Matrix{};
 
     bool operator==(const Version& other) const
     {
-      return this->Geometry == other.Geometry && this->Pipeline == other.Pipeline &&
-        this->Matrix == other.Matrix;
+      return this->Geometry == other.Geometry && this->Pipeline == other.Pipeline;
     }
   };
 
   void ListenToErrors();
   bool Connect(std::string& error);
   Version Current();
-  bool Build(std::string& error);
-  Snapshot Transform(const Snapshot& local, std::string& error) const;
+  Matrix4 CurrentMatrix();
+  void FollowGeometry(const PullSettings& settings, std::string& error);
+  void FollowMatrix(const PullSettings& settings, std::string& error);
+  void StartBuild(const PullSettings& settings, std::shared_ptr<SurfacePreparation> preparation,
+    const Matrix4& matrix, std::string& error);
+  void TakeBuild(std::string& error);
+  void KeepAttributes(vtkPolyData* geometry);
   void KeepCellIds();
-  void KeepPrepared();
   static void KeepError(vtkObject* caller, unsigned long event, void* clientData, void* text);
 
   int Identifier;
@@ -84,15 +105,18 @@ private:
   vtkSmartPointer<vtkAlgorithm> Producer; // an output port does not keep its algorithm alive
   vtkSmartPointer<vtkAlgorithmOutput> Geometry;
   vtkNew<vtkGodObjectFilter> Preparation;
-  vtkNew<vtkMatrix4x4> Matrix;
   bool Shown = true;
   bool Tried = false;
   Version LastTried;
+  Matrix4 LastMatrix = IdentityMatrix;
   std::string LastConnectError;
   std::string PreparationError;
+  std::shared_ptr<SurfaceBuild> Build;
+  vtkSmartPointer<vtkPolyData> BuildInput; ///< with the arrays as they were when it started
+
   Snapshot InForce;
-  Snapshot Untransformed; ///< what InForce was made of
-  std::array<double, 16> MatrixInForce{};
+  std::shared_ptr<SurfacePreparation> Base; ///< what InForce was made of
+  Matrix4 Baked = IdentityMatrix;           ///< and by which matrix
   CellIds Ids;
   vtkSmartPointer<vtkPolyData> Kept;
 };

@@ -50,13 +50,15 @@ HapticSurface* SurfaceSet::Find(vtkActor* actor) const
   return nullptr;
 }
 
-bool SurfaceSet::Pull(std::vector<std::string>& errors)
+bool SurfaceSet::Pull(const PullSettings& settings, std::vector<std::string>& errors)
 {
   bool changed = this->Changed;
   for (const auto& surface : this->Surfaces)
   {
     std::string error;
-    changed = surface->Pull(error) || changed;
+    const BackgroundTask* before = surface->Building();
+    changed = surface->Pull(settings, error) || changed;
+    this->BuildsStarted += surface->Building() && surface->Building() != before ? 1 : 0;
     if (!error.empty())
     {
       errors.push_back("Surface " + std::to_string(surface->Id()) + ": " + error +
@@ -65,7 +67,33 @@ bool SurfaceSet::Pull(std::vector<std::string>& errors)
     }
   }
   this->Changed = false;
+  this->BuildsStarted = this->IsBuilding() ? this->BuildsStarted : 0;
   return changed;
+}
+
+bool SurfaceSet::IsBuilding() const
+{
+  return std::any_of(this->Surfaces.begin(), this->Surfaces.end(),
+    [](const std::unique_ptr<HapticSurface>& surface) { return surface->Building(); });
+}
+
+double SurfaceSet::BuildProgress() const
+{
+  double missing = 0.0;
+  for (const auto& surface : this->Surfaces)
+  {
+    missing += surface->Building() ? 1.0 - surface->Building()->Progress() : 0.0;
+  }
+  return this->BuildsStarted > 0 ? 1.0 - missing / this->BuildsStarted : 1.0;
+}
+
+void SurfaceSet::CancelBuilds()
+{
+  for (const auto& surface : this->Surfaces)
+  {
+    surface->CancelBuild();
+  }
+  this->BuildsStarted = 0;
 }
 
 std::vector<TouchedSurface> SurfaceSet::Touched() const

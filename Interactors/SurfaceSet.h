@@ -45,7 +45,13 @@ public:
 
   /// Takes in what has changed. True where a new god-object has to be published. Each new error is
   /// appended to `errors`, naming its surface.
-  bool Pull(std::vector<std::string>& errors);
+  bool Pull(const PullSettings& settings, std::vector<std::string>& errors);
+
+  /// Whether a surface is being built beside the GUI thread.
+  bool IsBuilding() const;
+  /// 0 to 1, over all that is being built or was since nothing was; 1 where nothing is.
+  double BuildProgress() const;
+  void CancelBuilds();
 
   /// What a god-object is to touch now.
   std::vector<TouchedSurface> Touched() const;
@@ -73,7 +79,8 @@ private:
   std::vector<std::unique_ptr<HapticSurface>> Surfaces;
   std::map<std::uint64_t, std::vector<Entry>> Generations;
   int NextId = 0;
-  bool Changed = true; // nothing was published yet
+  bool Changed = true;   // nothing was published yet
+  int BuildsStarted = 0; // since nothing was being built
 };
 }
 

@@ -138,6 +138,7 @@ int vtkHapticScene::Step(int n)
   }
   this->PullState();
   this->PullSurfaces();
+  this->FinishBuilds();
   int done = 0;
   while (done < n)
   {

@@ -75,7 +75,8 @@ public:
     ButtonReleaseEvent, ///< int*: the device's button, from 0
     DeviceStateEvent,   ///< int*: a vtkHapticDevice::DeviceState
     OverloadEvent,      ///< vtkHapticProbe: too many triangles in one place; held where it is safe
-    LandmarkEvent       ///< int*: how many landmarks there are, after one came by a button
+    LandmarkEvent,      ///< int*: how many landmarks there are, after one came by a button
+    BuildEvent          ///< no data; a background build began, got on or ended: GetBuildProgress()
   };
 
   ///@{
@@ -110,6 +111,32 @@ public:
   bool IsSurfaceTouchable(int id);
 
   ///@{
+  /**
+   * Whether a surface whose geometry has changed is cleaned and built on a thread beside, so that
+   * Update() and Engage() return at once. Until it is built what was touched before is touched on;
+   * what changes meanwhile is built next, in its newest state. Upstream filters still run on the
+   * calling thread. Default off; the viewer and ParaView turn it on.
+   *
+   * A build works on a copy of the points, and shares the cells: code that writes into the memory
+   * of a vtkCellArray, instead of replacing it as VTK's filters do, has to wait for IsBuilding() to
+   * be false. Step() waits for all builds, so that it gives the same result in every run.
+   */
+  void SetBackgroundBuilding(bool background);
+  bool GetBackgroundBuilding();
+  vtkBooleanMacro(BackgroundBuilding, bool);
+  ///@}
+  ///@{
+  /**
+   * Whether a surface is being built in the background, and how far all that are have come: 0 to
+   * 1, and 1 where none is. As of the last Update(), which takes in what is done.
+   */
+  bool IsBuilding();
+  double GetBuildProgress();
+  ///@}
+  /** Gives up the builds: what is touched stays, till the geometry changes again. */
+  void CancelBuild();
+
+  ///@{
   /** The device, null by default. Changing it releases the scene first. */
   void SetDevice(vtkHapticDevice* device);
   vtkHapticDevice* GetDevice();
@@ -140,8 +167,9 @@ public:
   /**
    * Maps the device's workspace to the bounds of the surfaces that can be touched, as small as
    * holds them. Camera-aligned: the device's x, y, z axes become the camera's right, up and
-   * towards the viewer; without a camera the world's axes. False and an error where no surface can
-   * be touched or there is no device.
+   * towards the viewer; without a camera the world's axes. One that is built for the first time in
+   * the background counts already. False and an error where no surface can be touched or there is
+   * no device.
    */
   bool FitWorkspace(vtkCamera* camera = nullptr);
   /** As above, for bounds (xmin, xmax, ymin, ymax, zmin, zmax) in the world frame. */
@@ -275,6 +303,8 @@ private:
   void Fail(const std::string& message);
   bool OpenDevice(vtkHapticDevice* device);
   bool PullSurfaces();
+  void FinishBuilds();
+  void TellOfBuilds();
   bool PullState();
   void PullRecords();
   bool ShowState();

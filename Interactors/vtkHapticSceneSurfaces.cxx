@@ -134,14 +134,9 @@ bool vtkHapticScene::FitWorkspace(vtkCamera* camera)
 {
   this->PullSurfaces();
   vtkBoundingBox box;
-  for (const haptics::TouchedSurface& touched : this->Internal->Surfaces.Touched())
+  for (const auto& surface : this->Internal->Surfaces.All())
   {
-    const haptics::TriangleSurface* surface = touched.Surface.get();
-    for (const haptics::Vec3& point : surface->Points())
-    {
-      const haptics::Vec3& origin = surface->Origin();
-      box.AddPoint(point[0] + origin[0], point[1] + origin[1], point[2] + origin[2]);
-    }
+    surface->AddBounds(box);
   }
   if (!box.IsValid())
   {
@@ -172,12 +167,70 @@ bool vtkHapticScene::FitWorkspace(const double bounds[6], vtkCamera* camera)
   return this->SetWorkspaceTransform(fitted);
 }
 
+void vtkHapticScene::SetBackgroundBuilding(bool background)
+{
+  if (background != this->Internal->BackgroundBuilding)
+  {
+    this->Internal->BackgroundBuilding = background;
+    this->Modified();
+  }
+}
+
+bool vtkHapticScene::GetBackgroundBuilding()
+{
+  return this->Internal->BackgroundBuilding;
+}
+
+bool vtkHapticScene::IsBuilding()
+{
+  return this->Internal->Surfaces.IsBuilding();
+}
+
+double vtkHapticScene::GetBuildProgress()
+{
+  return this->Internal->Surfaces.BuildProgress();
+}
+
+void vtkHapticScene::CancelBuild()
+{
+  this->Internal->Surfaces.CancelBuilds();
+  this->TellOfBuilds();
+}
+
+void vtkHapticScene::FinishBuilds()
+{
+  while (this->IsBuilding()) // what has changed during one is built by the next
+  {
+    this->Internal->Worker.Wait();
+    this->PullSurfaces();
+  }
+}
+
+void vtkHapticScene::TellOfBuilds()
+{
+  const bool isBuilding = this->IsBuilding();
+  const double progress = this->GetBuildProgress();
+  if (isBuilding != this->Internal->WasBuilding || progress != this->Internal->BuildProgress)
+  {
+    this->Internal->WasBuilding = isBuilding;
+    this->Internal->BuildProgress = progress;
+    this->InvokeEvent(vtkHapticScene::BuildEvent);
+  }
+}
+
 bool vtkHapticScene::PullSurfaces()
 {
+  if (!this->Internal->BackgroundBuilding && this->IsBuilding())
+  {
+    this->Internal->Worker.Wait(); // what was begun before it was turned off
+  }
+  this->Internal->Worker.Collect();
+  haptics::PullSettings settings;
+  settings.Worker = this->Internal->BackgroundBuilding ? &this->Internal->Worker : nullptr;
   std::vector<std::string> errors;
   haptics::SurfaceSet& surfaces = this->Internal->Surfaces;
   const bool clutchMoved = std::exchange(this->Internal->ClutchMoved, false);
-  const bool changed = surfaces.Pull(errors) || clutchMoved;
+  const bool changed = surfaces.Pull(settings, errors) || clutchMoved;
   if (changed)
   {
     std::vector<haptics::TouchedSurface> touched;
@@ -198,6 +251,7 @@ bool vtkHapticScene::PullSurfaces()
     this->Fail(error);
     this->InvokeEvent(vtkHapticScene::SurfaceErrorEvent);
   }
+  this->TellOfBuilds();
   return changed;
 }
 
@@ -206,8 +260,8 @@ bool vtkHapticScene::IntersectRay(const double from[3], const double direction[3
   std::optional<double> nearest;
   for (const haptics::TouchedSurface& touched : this->Internal->Surfaces.Touched())
   {
-    const std::optional<double> t = haptics::CastRay(*touched.Surface, { { from[0], from[1], from[2] } },
-      { { direction[0], direction[1], direction[2] } });
+    const std::optional<double> t = haptics::CastRay(*touched.Surface,
+      { { from[0], from[1], from[2] } }, { { direction[0], direction[1], direction[2] } });
     if (t && (!nearest || *t < *nearest))
     {
       nearest = t;

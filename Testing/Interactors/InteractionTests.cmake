@@ -2,6 +2,7 @@
 
 # Threads run in some of these, but no time is asserted.
 haptics_add_gtest(TestHapticScene
+  TestBackgroundBuilding.cxx
   TestHapticScene.cxx
   TestHapticSceneActors.cxx
   TestHapticSceneWorkspace.cxx

@@ -1,0 +1,92 @@
+#ifndef SurfacePreparation_h
+#define SurfacePreparation_h
+
+#include "BuildKey.h"
+#include "SurfaceCleaner.h"
+#include "TriangleSurface.h"
+
+#include "vtkHapticsFiltersModule.h"
+#include "vtkNew.h"
+#include "vtkSmartPointer.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+class vtkCellArray;
+class vtkIdTypeArray;
+class vtkPoints;
+class vtkPolyData;
+
+namespace haptics
+{
+/// What a vtkGodObjectFilter is set to.
+struct PreparationOptions
+{
+  CleaningOptions Cleaning;
+  Side TouchedSide = Side::Automatic;
+  EngineKind Engine = EngineKind::Automatic;
+  bool AutomaticCrackWidth = true;
+  double CrackWidth = 0.0; ///< [world unit]; ignored where it is automatic
+};
+
+/// @brief What a vtkGodObjectFilter makes of one geometry, without its pipeline.
+///
+/// Made, read and destroyed on the GUI thread; Run() may be on any thread, once. Meanwhile the GUI
+/// thread leaves the object alone. Run() reads the input's points, cells and ghost array, and
+/// makes VTK objects of its own; it neither keeps nor lets go of any that another thread knows.
+class VTKHAPTICSFILTERS_EXPORT SurfacePreparation
+{
+public:
+  /// Shares the input's points and cells; takes its state for the key now.
+  SurfacePreparation(vtkPolyData* input, const PreparationOptions& options);
+  ~SurfacePreparation();
+  SurfacePreparation(const SurfacePreparation&) = delete;
+  SurfacePreparation& operator=(const SurfacePreparation&) = delete;
+
+  /// Takes a copy of the points, so that whoever owns them may write into them while Run() is on
+  /// another thread. Cells are still shared.
+  void CopyPoints();
+
+  CleaningResult Run(const ProgressCall& progress);
+  /// Lets go of the input's points.
+  void Finish();
+
+  /// Gives `output` the clean points and triangles, and the attributes of `input`, a geometry with
+  /// the key above. Returns how many arrays were left out, having too few tuples. GUI thread.
+  int Fill(vtkPolyData* input, vtkPolyData* output) const;
+
+  /// What the result depends on: equal keys, equal results.
+  const BuildKey& Key() const { return this->InputKey; }
+  static BuildKey MakeKey(vtkPolyData* input, const PreparationOptions& options);
+
+  /// Why Run() failed; empty otherwise.
+  const std::string& Error() const { return this->ErrorText; }
+  /// What is odd about the input, though it was good enough; empty otherwise.
+  const std::string& Warning() const { return this->WarningText; }
+
+  ///@{
+  /// Results, once Run() is done; null or zero before, and where it was not.
+  std::shared_ptr<const TriangleSurface> Surface() const { return this->Built; }
+  const CleaningReport& Report() const { return this->Found; }
+  double CrackWidth() const { return this->CrackWidthInUse; } ///< [world unit]
+  vtkIdTypeArray* OriginalCells() const; ///< for each triangle the input's cell
+  ///@}
+
+private:
+  PreparationOptions Options;
+  vtkNew<vtkPolyData> Input;
+  BuildKey InputKey;
+  std::string ErrorText;
+  std::string WarningText;
+  std::shared_ptr<const TriangleSurface> Built;
+  CleaningReport Found;
+  double CrackWidthInUse = 0.0;
+  vtkSmartPointer<vtkPoints> CleanPoints;
+  vtkSmartPointer<vtkCellArray> CleanTriangles;
+  vtkSmartPointer<vtkIdTypeArray> PointIds;
+  vtkSmartPointer<vtkIdTypeArray> CellIds;
+};
+}
+
+#endif

@@ -1,0 +1,97 @@
+#include "SurfaceBuild.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <utility>
+
+namespace haptics
+{
+Vec3 Transformed(const Matrix4& m, const Vec3& p)
+{
+  return { m[0] * p[0] + m[1] * p[1] + m[2] * p[2] + m[3],
+    m[4] * p[0] + m[5] * p[1] + m[6] * p[2] + m[7],
+    m[8] * p[0] + m[9] * p[1] + m[10] * p[2] + m[11] };
+}
+
+double Determinant(const Matrix4& m)
+{
+  return m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) +
+    m[2] * (m[4] * m[9] - m[5] * m[8]);
+}
+
+SurfaceBuild::SurfaceBuild(std::shared_ptr<SurfacePreparation> preparation, const Matrix4& matrix)
+  : Prepared(std::move(preparation))
+  , Baked(matrix)
+  , IsNew(!this->Prepared->Surface())
+{
+}
+
+void SurfaceBuild::Work()
+{
+  try
+  {
+    this->BuildAnew();
+  }
+  catch (const std::bad_alloc&)
+  {
+    this->Outcome = CleaningResult::Failed;
+    this->Built.reset();
+    this->ErrorText = "memory ran out while the surface was built; decimate or clip it";
+  }
+}
+
+void SurfaceBuild::BuildAnew()
+{
+  const auto report = [this](double fraction)
+  { return this->Report(fraction) && (!this->Listener || this->Listener(fraction)); };
+  if (!report(0.0))
+  {
+    return;
+  }
+  this->Outcome = this->IsNew ? this->Prepared->Run(report) : CleaningResult::Done;
+  if (this->Outcome == CleaningResult::Done)
+  {
+    this->Built = this->Prepared->Surface();
+    if (this->Baked != IdentityMatrix)
+    {
+      this->Bake(*this->Built);
+    }
+  }
+}
+
+void SurfaceBuild::Bake(const TriangleSurface& local)
+{
+  const Matrix4& m = this->Baked;
+  TriangleMesh mesh;
+  mesh.Triangles = local.Triangles();
+  mesh.Points.reserve(local.Points().size());
+  const Vec3& o = local.Origin();
+  for (const Vec3& p : local.Points())
+  {
+    mesh.Points.push_back(Transformed(m, { p[0] + o[0], p[1] + o[1], p[2] + o[2] }));
+  }
+  if (Determinant(m) < 0.0) // a mirror turns every front into a back
+  {
+    for (Triangle& triangle : mesh.Triangles)
+    {
+      std::swap(triangle[1], triangle[2]);
+    }
+  }
+  double longest = 0.0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    longest = std::max(longest, std::hypot(m[axis], m[4 + axis], m[8 + axis]));
+  }
+  SurfaceOptions options;
+  options.TouchedSide = local.TouchedSide();
+  options.Engine = local.Engine().Kind();
+  // The longest axis bounds how a gap grows up to a factor of sqrt(3).
+  options.CrackWidth = this->Prepared->CrackWidth() * longest * std::sqrt(3.0);
+  this->Built = TriangleSurface::Build(std::move(mesh), options, this->ErrorText);
+  if (!this->Built)
+  {
+    this->Outcome = CleaningResult::Failed;
+  }
+}
+}

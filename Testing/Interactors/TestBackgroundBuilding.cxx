@@ -1,0 +1,259 @@
+#include "SceneTestTools.h"
+
+#include "vtkActor.h"
+#include "vtkGodObjectFilter.h"
+#include "vtkMatrix4x4.h"
+#include "vtkPoints.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkSphereSource.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace
+{
+using Clock = std::chrono::steady_clock;
+
+double SecondsSince(Clock::time_point start)
+{
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// A ball whose pole is at the origin, under the hand: `height` raises it.
+vtkSmartPointer<vtkPolyData> MakeBall(int resolution, double height = 0.0)
+{
+  vtkNew<vtkSphereSource> ball;
+  ball->SetRadius(0.05);
+  ball->SetCenter(0.0, 0.0, height - 0.05);
+  ball->SetThetaResolution(resolution);
+  ball->SetPhiResolution(resolution + 2);
+  ball->Update();
+  return ball->GetOutput();
+}
+
+/// A scene with an actor whose geometry the test exchanges, and a hand that presses on it.
+class BackgroundBuilding : public ::testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    this->Mapper->SetInputData(MakeBall(8));
+    this->Actor->SetMapper(this->Mapper);
+    this->Id = this->Scene->AddSurface(this->Actor);
+    this->Hand.Device->SetPosition(0.0, 0.0, 0.01);
+    this->Scene->Step(1);
+    this->Hand.Device->SetPosition(0.0, 0.0, -0.002);
+    this->Scene->Step(1);
+    ASSERT_TRUE(this->Scene->GetTouching());
+    this->Scene->BackgroundBuildingOn();
+  }
+
+  void Show(vtkPolyData* geometry) { this->Mapper->SetInputData(geometry); }
+
+  void AwaitBuilds()
+  {
+    while (this->Scene->IsBuilding())
+    {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      this->Scene->Update();
+    }
+  }
+
+  vtkGodObjectFilter* Filter() { return this->Scene->GetSurfaceFilter(this->Id); }
+
+  LedHand Hand;
+  vtkHapticScene* Scene = this->Hand.Scene;
+  vtkNew<vtkPolyDataMapper> Mapper;
+  vtkNew<vtkActor> Actor;
+  int Id = -1;
+};
+}
+
+TEST_F(BackgroundBuilding, UpdateReturnsAtOnceAndTheContactLastsOverThirteenHundredThousand)
+{
+  this->Hand.Device->SetPosition(0.0, 0.0, 0.01);
+  ASSERT_TRUE(this->Scene->Engage()) << this->Scene->GetErrorMessage();
+  const auto awaitHand = [this](bool touching)
+  {
+    do
+    {
+      this->Scene->Update();
+    } while (this->Scene->GetTouching() != touching && this->Scene->IsEngaged());
+  };
+  awaitHand(false);
+  this->Hand.Device->SetPosition(0.0, 0.0, -0.002);
+  awaitHand(true);
+  EventCounter ends(this->Scene, vtkHapticScene::ContactEndEvent);
+  this->Show(MakeBall(807));
+  const auto start = Clock::now();
+  double longest = 0.0;
+  do
+  {
+    const auto before = Clock::now();
+    this->Scene->Update();
+    longest = std::max(longest, SecondsSince(before));
+    EXPECT_TRUE(this->Scene->GetTouching());
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  } while (this->Scene->IsBuilding());
+  const double all = SecondsSince(start);
+  RecordProperty("LongestUpdateInMilliseconds", static_cast<int>(1000.0 * longest));
+  RecordProperty("BuildInMilliseconds", static_cast<int>(1000.0 * all));
+  EXPECT_LT(longest, all / 4) << "of " << all << " s; built in Update() it would be nearly all";
+  EXPECT_GT(this->Filter()->GetSurface()->Triangles().size(), 1'300'000u);
+  this->Scene->Release();
+  EXPECT_EQ(ends.Count, 1) << "at the release only";
+}
+
+TEST_F(BackgroundBuilding, StepWaitsSoThatItGivesTheSameAsBuildingAtOnce)
+{
+  this->Show(MakeBall(64, 0.001));
+  this->Scene->Step(10);
+  EXPECT_FALSE(this->Scene->IsBuilding());
+  const double background = this->Scene->GetForce()[2];
+
+  this->Show(MakeBall(8));
+  this->Scene->BackgroundBuildingOff();
+  this->Scene->Step(10);
+  this->Show(MakeBall(64, 0.001));
+  this->Scene->Step(10);
+  EXPECT_EQ(this->Scene->GetForce()[2], background);
+}
+
+TEST_F(BackgroundBuilding, TheNewestGeometryWinsAndThoseBetweenAreLeftOut)
+{
+  this->Show(MakeBall(200));
+  this->Scene->Update();
+  EXPECT_TRUE(this->Scene->IsBuilding());
+  this->Show(MakeBall(201));
+  this->Scene->Update();
+  vtkSmartPointer<vtkPolyData> newest = MakeBall(100);
+  this->Show(newest);
+  this->AwaitBuilds();
+  EXPECT_EQ(static_cast<vtkIdType>(this->Filter()->GetSurface()->Triangles().size()),
+    newest->GetNumberOfPolys());
+  EXPECT_EQ(this->Filter()->GetNumberOfBuilds(), 3) << "the first, 200 and 100";
+}
+
+TEST_F(BackgroundBuilding, ACancelledBuildLeavesWhatWasTouchedTillTheGeometryChangesAgain)
+{
+  const auto before = this->Filter()->GetSurface();
+  this->Show(MakeBall(200));
+  this->Scene->Update();
+  ASSERT_TRUE(this->Scene->IsBuilding());
+  this->Scene->CancelBuild();
+  EXPECT_FALSE(this->Scene->IsBuilding());
+  EXPECT_EQ(this->Scene->GetBuildProgress(), 1.0);
+  this->Scene->Step(1);
+  EXPECT_TRUE(this->Scene->GetTouching());
+  EXPECT_EQ(this->Filter()->GetSurface(), before);
+
+  this->Show(MakeBall(16));
+  this->Scene->Update();
+  this->AwaitBuilds();
+  EXPECT_NE(this->Filter()->GetSurface(), before);
+}
+
+TEST_F(BackgroundBuilding, ProgressGoesFromZeroToOneAndEveryStepIsTold)
+{
+  struct Told
+  {
+    std::vector<double> Progress;
+    vtkHapticScene* Scene;
+  } told{ {}, this->Scene };
+  vtkNew<vtkCallbackCommand> listener;
+  listener->SetClientData(&told);
+  listener->SetCallback(
+    [](vtkObject*, unsigned long, void* data, void*)
+    {
+      auto* to = static_cast<Told*>(data);
+      to->Progress.push_back(to->Scene->GetBuildProgress());
+    });
+  this->Scene->AddObserver(vtkHapticScene::BuildEvent, listener);
+  this->Show(MakeBall(200));
+  this->Scene->Update();
+  this->AwaitBuilds();
+  ASSERT_GE(told.Progress.size(), 2u);
+  EXPECT_LT(told.Progress.front(), 1.0);
+  EXPECT_EQ(told.Progress.back(), 1.0);
+  EXPECT_TRUE(std::is_sorted(told.Progress.begin(), told.Progress.end()));
+}
+
+TEST_F(BackgroundBuilding, ABadGeometryIsToldOnceAndTheLastOneStays)
+{
+  vtkSmartPointer<vtkPolyData> bad = MakeBall(16);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  bad->GetPoints()->SetPoint(7, nan, 0.0, 0.0);
+  EventCounter errors(this->Scene, vtkCommand::ErrorEvent);
+  EventCounter events(this->Scene, vtkHapticScene::SurfaceErrorEvent);
+  this->Show(bad);
+  this->Scene->Update();
+  this->AwaitBuilds();
+  this->Scene->Update();
+  EXPECT_EQ(errors.Count, 1);
+  EXPECT_EQ(events.Count, 1);
+  EXPECT_NE(std::string(this->Scene->GetErrorMessage()).find("Point 7"), std::string::npos);
+  this->Scene->Step(1);
+  EXPECT_TRUE(this->Scene->GetTouching());
+}
+
+TEST_F(BackgroundBuilding, PointsMayBeWrittenWhileTheyAreBuiltFrom)
+{
+  vtkSmartPointer<vtkPolyData> ball = MakeBall(200);
+  this->Show(ball);
+  this->Scene->Update();
+  ASSERT_TRUE(this->Scene->IsBuilding());
+  for (vtkIdType i = 0; i < ball->GetNumberOfPoints(); ++i)
+  {
+    double point[3];
+    ball->GetPoint(i, point);
+    ball->GetPoints()->SetPoint(i, point[0], point[1], point[2] + 0.001);
+  }
+  const auto middle = [this] { return this->Filter()->GetSurface()->Origin()[2]; };
+  this->AwaitBuilds();
+  EXPECT_NEAR(middle(), -0.05, 1e-5) << "as it was when the build began";
+  ball->GetPoints()->Modified();
+  this->Scene->Update();
+  this->AwaitBuilds();
+  EXPECT_NEAR(middle(), -0.049, 1e-5) << "as it was declared modified";
+}
+
+TEST_F(BackgroundBuilding, ASurfaceMayGoWhileItIsBuilt)
+{
+  this->Show(MakeBall(200));
+  this->Scene->Update();
+  ASSERT_TRUE(this->Scene->IsBuilding());
+  this->Scene->RemoveAllSurfaces();
+  EXPECT_FALSE(this->Scene->IsBuilding());
+  this->Scene->Step(1);
+  EXPECT_FALSE(this->Scene->GetTouching());
+}
+
+TEST(BackgroundBuildingOfAScene, TheSceneMayGoWhileItBuilds)
+{
+  vtkNew<vtkHapticScene> scene;
+  scene->BackgroundBuildingOn();
+  scene->AddSurface(MakeBall(200));
+  scene->AddSurface(MakeBall(201));
+  scene->Update();
+  EXPECT_TRUE(scene->IsBuilding());
+}
+
+TEST(BackgroundBuildingOfAScene, TheWorkspaceIsFittedToWhatIsBuiltForTheFirstTime)
+{
+  LedHand hand;
+  hand.Scene->BackgroundBuildingOn();
+  hand.Scene->AddSurface(MakeBall(200));
+  ASSERT_TRUE(hand.Scene->FitWorkspace());
+  ASSERT_TRUE(hand.Scene->IsBuilding());
+  double early = hand.Scene->GetWorkspaceTransform()->GetElement(0, 0);
+  hand.Scene->Step(1);
+  ASSERT_TRUE(hand.Scene->FitWorkspace());
+  EXPECT_NEAR(hand.Scene->GetWorkspaceTransform()->GetElement(0, 0), early, 1e-6 * early);
+}
