@@ -64,6 +64,17 @@ Vector ActivePlanes::Nearest(const Vector& from, const Vector& hip)
   return SquaredLength(step - wish) <= SquaredLength(wish) * (1.0 + 1e-12) ? from + step : from;
 }
 
+bool ActivePlanes::PushOut(Vector& point)
+{
+  Vector step(0.0);
+  if (!this->Solve(Vector(0.0), true, point, step))
+  {
+    return false;
+  }
+  point += step;
+  return true;
+}
+
 bool ActivePlanes::Solve(const Vector& wish, bool raise, const Vector& from, Vector& nearest)
 {
   // Relative to `from`, where the numbers are small and keep their digits.

@@ -27,6 +27,7 @@ struct ActivePlane
   Vector Normal{ 0 }; ///< unit, towards the god-object
   Vector Anchor{ 0 }; ///< a corner of the facet, scene frame
   double Clearance = 0.0;
+  bool IsFlipped = false; ///< the god-object is on the facet's back
   /// Met from so far away that its clearance is more than it has to be: to be met anew.
   bool IsFar = false;
 };
@@ -62,6 +63,15 @@ public:
       this->Add(kept[i]);
     }
   }
+  /// Puts the planes where their facets are now; each is handed to `renew` to be changed.
+  template <class Renewal>
+  void Renew(const Renewal& renew)
+  {
+    for (int i = 0; i < this->Count; ++i)
+    {
+      renew(this->Planes[i]);
+    }
+  }
   bool IsEmpty() const { return this->Count == 0; }
   bool Has(const FacetId& facet) const;
   /// Adds a plane; when full, in place of one that does not support the goal.
@@ -70,6 +80,10 @@ public:
   /// The point nearest to `hip` that keeps every plane, given that `from` nearly does; `from`
   /// itself where the planes leave no better. Sets the support.
   Vector Nearest(const Vector& from, const Vector& hip);
+
+  /// Moves `point`, which may be behind planes, to the nearest one that keeps them all. False where
+  /// there is none. Sets the support.
+  bool PushOut(Vector& point);
 
   /// The planes that hold the last nearest point: at most three.
   int SupportSize() const { return this->NumberOfSupports; }

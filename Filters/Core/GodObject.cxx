@@ -1,6 +1,6 @@
 #include "GodObject.h"
 
-#include "WorkingSet.h"
+#include "GodObjectImplementation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,194 +9,217 @@ namespace haptics
 {
 namespace
 {
-/// Fig. 5's two-step transition over a convex edge is made within one update by passes; each lets
-/// go of the planes that held only beyond their facets. Two or three do on a slide; a god-object
-/// that slips off a round body in one tick takes more, and every tick that needs fewer pays none.
-#ifdef HAPTICS_LARGEST_NUMBER_OF_PASSES // by Testing/Benchmarks, to compare
-constexpr int LargestNumberOfPasses = HAPTICS_LARGEST_NUMBER_OF_PASSES;
-#else
-constexpr int LargestNumberOfPasses = 16;
-#endif
-/// A pass meets at most a few facets; more come of rounding.
-constexpr int LargestNumberOfCasts = 12;
 /// A refused motion is tried at 1, 1/2, ... 1/32 of its length.
 constexpr int LargestNumberOfHalvings = 6;
-/// Triangles looked up in one update, all passes and surfaces together: a few dozen in practice,
-/// and a few milliseconds at the most.
-constexpr std::int64_t LargestNumberOfTriangles = 1 << 17;
-
-/// Each cast makes at most one motion.
-constexpr int LargestWay = LargestNumberOfPasses * LargestNumberOfCasts + 1;
 }
 
-class GodObject::Implementation
+GodObject::Implementation::Implementation(std::vector<TouchedSurface> surfaces)
+  : Surfaces(std::move(surfaces))
+  , Last(this->Surfaces.size())
 {
-public:
-  explicit Implementation(std::vector<TouchedSurface> surfaces)
-    : Surfaces(std::move(surfaces))
+  if (!this->Surfaces.empty())
   {
-    if (!this->Surfaces.empty())
-    {
-      this->Origin = ToVector(this->Surfaces.front().Surface->Origin());
-    }
-    this->Sets.reserve(this->Surfaces.size());
-    for (const TouchedSurface& touched : this->Surfaces)
-    {
-      const auto index = static_cast<std::int32_t>(this->Sets.size());
-      this->Sets.emplace_back(
-        touched.Surface, index, ToVector(touched.Surface->Origin()) - this->Origin);
-    }
+    const TouchedSurface& first = this->Surfaces.front();
+    const Vec3& origin = first.Surface->Origin();
+    this->Origin = ToVector(first.Motion ? first.Motion->Read().Pose.PointToWorld(origin) : origin);
   }
-
-  void Place(const Vector& position)
+  this->Sets.reserve(this->Surfaces.size());
+  for (const TouchedSurface& touched : this->Surfaces)
   {
-    this->Position = position;
-    this->IsPlaced = true;
-    this->Active.Clear();
-    for (WorkingSet& set : this->Sets)
+    const auto index = static_cast<std::int32_t>(this->Sets.size());
+    this->Sets.emplace_back(touched.Surface, index, this->FrameOf(index, RigidPose()));
+    if (SurfaceMotion* const motion = touched.Motion.get())
     {
-      set.Place(position);
-    }
-  }
-
-  void Update(const Vector& hip)
-  {
-    this->Budget.Triangles = LargestNumberOfTriangles;
-    this->IsOverloaded = false;
-    this->Way[0] = ToVec3(this->Position);
-    this->WaySize = 1;
-    for (int pass = 0; pass < LargestNumberOfPasses; ++pass)
-    {
-      const Vector before = this->Position;
-      const bool arrived = this->Pass(hip);
-      if (this->IsOverloaded || this->Position == hip || (arrived && this->IsSupported()))
+      Mover mover;
+      mover.Surface = index;
+      mover.Motion = motion;
+      mover.Pivot = ToVector(touched.Surface->Origin());
+      this->Movers.push_back(mover);
+      if (std::find(this->Motions.begin(), this->Motions.end(), motion) == this->Motions.end())
       {
-        break;
-      }
-      if (SquaredLength(this->Position - before) <= 1e-18 * SquaredLength(hip - before))
-      {
-        break;
+        this->Motions.push_back(motion);
       }
     }
   }
+}
 
-  std::vector<TouchedSurface> Surfaces;
-  Vector Origin{ 0 };   ///< of the scene frame, in the world
-  Vector Position{ 0 }; ///< scene frame
-  bool IsPlaced = false;
-  bool IsOverloaded = false;
-  ActivePlanes Active;
-  Contact Result;
-  std::array<Vec3, LargestWay> Way;
-  int WaySize = 0;
-
-private:
-  /// Moves to the nearest point to the HIP that the facets met on the way allow.
-  /// True if it came there.
-  bool Pass(const Vector& hip)
+void GodObject::Implementation::Place(const Vector& position)
+{
+  this->Position = position;
+  this->IsPlaced = true;
+  this->IsSplit = false;
+  this->Carried = Vector(0.0);
+  this->Active.Clear();
+  for (Mover& mover : this->Movers)
   {
-    // The facets that the god-object lies on hold it still: the cast to the HIP would meet them
-    // first, so it is left out.
-    this->Active.KeepSupports(
-      [this](const ActivePlane& plane) { return !plane.IsFar && this->IsOver(plane); });
-    Vector goal = this->Active.IsEmpty() ? hip : this->Active.Nearest(this->Position, hip);
-    for (int cast = 0; cast < LargestNumberOfCasts; ++cast)
+    this->TakePose(mover);
+  }
+  for (WorkingSet& set : this->Sets)
+  {
+    set.Place(position);
+  }
+}
+
+void GodObject::Implementation::Update(const Vector& hip)
+{
+  this->Budget.Triangles = LargestNumberOfTriangles;
+  this->IsOverloaded = false;
+  this->Way[0] = ToVec3(this->Position);
+  this->WaySize = 1;
+  if (this->IsSplit && !this->Join(hip))
+  {
+    return;
+  }
+  this->Walk(hip);
+}
+
+void GodObject::Implementation::Walk(const Vector& hip)
+{
+  for (int pass = 0; pass < LargestNumberOfPasses; ++pass)
+  {
+    const Vector before = this->Position;
+    const bool arrived = this->Pass(hip);
+    if (this->IsOverloaded || this->Position == hip || (arrived && this->IsSupported()))
     {
-      FacetHit hit;
-      for (WorkingSet& set : this->Sets)
+      break;
+    }
+    if (SquaredLength(this->Position - before) <= 1e-18 * SquaredLength(hip - before))
+    {
+      break;
+    }
+  }
+}
+
+/// The first facet that any surface has in the way. False: more to look at than a tick may.
+bool GodObject::Implementation::FindFirstHit(
+  const Vector& goal, const ActivePlanes& planes, FacetHit& hit)
+{
+  hit = FacetHit();
+  for (std::size_t i = this->First; i < this->Last; ++i)
+  {
+    FacetHit other;
+    if (!this->Sets[i].FindFirstHit(goal, planes, this->Budget, other))
+    {
+      return false;
+    }
+    if (other.Fraction < hit.Fraction)
+    {
+      hit = other;
+    }
+  }
+  return true;
+}
+
+bool GodObject::Implementation::IsClear(const Vector& to)
+{
+  for (std::size_t i = this->First; i < this->Last; ++i)
+  {
+    if (!this->Sets[i].IsClear(to))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// To the target of the last IsClear.
+void GodObject::Implementation::MoveSets()
+{
+  for (std::size_t i = this->First; i < this->Last; ++i)
+  {
+    this->Sets[i].Move();
+  }
+}
+
+/// Moves to the nearest point to the HIP that the facets met on the way allow.
+/// True if it came there.
+bool GodObject::Implementation::Pass(const Vector& hip)
+{
+  // The facets that the god-object lies on hold it still: the cast to the HIP would meet them
+  // first, so it is left out.
+  this->Active.KeepSupports(
+    [this](const ActivePlane& plane) { return !plane.IsFar && this->IsOver(plane); });
+  Vector goal = this->Active.IsEmpty() ? hip : this->Active.Nearest(this->Position, hip);
+  for (int cast = 0; cast < LargestNumberOfCasts; ++cast)
+  {
+    FacetHit hit;
+    if (!this->FindFirstHit(goal, this->Active, hit))
+    {
+      this->IsOverloaded = true;
+      return false;
+    }
+    if (!hit)
+    {
+      const bool arrived = this->MoveTowards(goal);
+      if (arrived || this->Active.SupportSize() == 0)
       {
-        FacetHit other;
-        if (!set.FindFirstHit(goal, this->Active, this->Budget, other))
-        {
-          this->IsOverloaded = true;
-          return false;
-        }
-        if (other.Fraction < hit.Fraction)
-        {
-          hit = other;
-        }
+        return arrived;
       }
-      if (!hit)
-      {
-        const bool arrived = this->MoveTowards(goal);
-        if (arrived || this->Active.SupportSize() == 0)
-        {
-          return arrived;
-        }
-        const Vector next = this->Active.Nearest(this->Position, hip);
-        if (next == goal)
-        {
-          return false;
-        }
-        goal = next;
-        continue;
-      }
-      if (hit.Fraction > 0.0)
-      {
-        this->MoveTowards(this->Position + hit.Fraction * (goal - this->Position));
-      }
-      if (hit.IsWaypoint)
-      {
-        continue;
-      }
-      if (this->Active.Has(hit.Plane.Facet))
+      const Vector next = this->Active.Nearest(this->Position, hip);
+      if (next == goal)
       {
         return false;
       }
-      this->Active.Add(hit.Plane);
-      goal = this->Active.Nearest(this->Position, hip);
+      goal = next;
+      continue;
     }
-    return false;
-  }
-
-  /// Makes the motion, or the largest tried part of it that is certified to cross nothing.
-  /// True if all of it was made.
-  bool MoveTowards(const Vector& target)
-  {
-    Vector step = target - this->Position;
-    Vector to = target;
-    for (int halving = 0; halving < LargestNumberOfHalvings; ++halving)
+    if (hit.Fraction > 0.0)
     {
-      const bool isClear = std::all_of(
-        this->Sets.begin(), this->Sets.end(), [&to](WorkingSet& set) { return set.IsClear(to); });
-      if (isClear)
-      {
-        for (WorkingSet& set : this->Sets)
-        {
-          set.Move();
-        }
-        this->Position = to;
-        this->Way[this->WaySize++] = ToVec3(to);
-        return halving == 0;
-      }
-      step *= 0.5;
-      to = this->Position + step;
+      this->MoveTowards(this->Position + hit.Fraction * (goal - this->Position));
     }
-    return false;
-  }
-
-  /// Whether each plane that holds the god-object does so with its own facet. One that holds it
-  /// beyond its facet's edges has to be let go of: Fig. 5b.
-  bool IsSupported() const
-  {
-    for (int i = 0; i < this->Active.SupportSize(); ++i)
+    if (hit.IsWaypoint)
     {
-      if (!this->IsOver(this->Active.Support(i)))
-      {
-        return false;
-      }
+      continue;
     }
-    return true;
+    if (this->Active.Has(hit.Plane.Facet))
+    {
+      return false;
+    }
+    this->Active.Add(hit.Plane);
+    goal = this->Active.Nearest(this->Position, hip);
   }
+  return false;
+}
 
-  bool IsOver(const ActivePlane& plane) const
+/// Makes the motion, or the largest tried part of it that is certified to cross nothing.
+/// True if all of it was made.
+bool GodObject::Implementation::MoveTowards(const Vector& target)
+{
+  Vector step = target - this->Position;
+  Vector to = target;
+  for (int halving = 0; halving < LargestNumberOfHalvings; ++halving)
   {
-    return this->Sets[plane.Facet.Surface].Covers(plane, this->Position);
+    if (this->IsClear(to))
+    {
+      this->MoveSets();
+      this->Position = to;
+      this->Way[this->WaySize++] = ToVec3(to);
+      return halving == 0;
+    }
+    step *= 0.5;
+    to = this->Position + step;
   }
+  return false;
+}
 
-  std::vector<WorkingSet> Sets;
-  WorkBudget Budget;
-};
+/// Whether each plane that holds the god-object does so with its own facet. One that holds it
+/// beyond its facet's edges has to be let go of: Fig. 5b.
+bool GodObject::Implementation::IsSupported() const
+{
+  for (int i = 0; i < this->Active.SupportSize(); ++i)
+  {
+    if (!this->IsOver(this->Active.Support(i)))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool GodObject::Implementation::IsOver(const ActivePlane& plane) const
+{
+  return this->Sets[plane.Facet.Surface].Covers(plane, this->Position);
+}
 
 GodObject::GodObject(std::vector<TouchedSurface> surfaces)
   : Internal(new Implementation(std::move(surfaces)))
@@ -218,10 +241,14 @@ void GodObject::Continue(const GodObject& previous) noexcept
 {
   if (previous.Internal->IsPlaced)
   {
-    this->Internal->Place(
-      previous.Internal->Position + (previous.Internal->Origin - this->Internal->Origin));
+    this->Internal->Continue(*previous.Internal);
     this->Internal->Result = previous.Internal->Result;
   }
+}
+
+void GodObject::Advance(double dt) noexcept
+{
+  this->Internal->Advance(dt);
 }
 
 const Contact& GodObject::Update(const Vec3& hip) noexcept
@@ -245,8 +272,20 @@ const Contact& GodObject::Update(const Vec3& hip) noexcept
   }
   god.Update(goal);
 
-  const Vector displacement = god.Position - goal;
   result.Hip = hip;
+  if (god.IsSplit)
+  {
+    result.Position = hip;
+    result.Displacement = {};
+    result.Carried = {};
+    result.Penetration = 0.0;
+    result.NumberOfConstraints = 0;
+    result.Status = UpdateStatus::Squeezed;
+    return result;
+  }
+  const Vector displacement = god.Position - goal;
+  result.Carried = ToVec3(god.Carried);
+  god.Carried = Vector(0.0);
   result.Position = ToVec3(god.Position + god.Origin);
   result.Displacement = ToVec3(displacement);
   result.Penetration = glm::length(displacement);
@@ -280,6 +319,11 @@ const Vec3* GodObject::Way(int& numberOfCorners) const noexcept
 Vec3 GodObject::WayOrigin() const noexcept
 {
   return ToVec3(this->Internal->Origin);
+}
+
+Vec3 GodObject::LocalPosition(int surface) const noexcept
+{
+  return ToVec3(this->Internal->Sets[surface].LocalPosition());
 }
 
 const std::vector<TouchedSurface>& GodObject::Surfaces() const noexcept

@@ -24,7 +24,8 @@ enum class UpdateStatus
   Free,       ///< the god-object is at the HIP
   Touching,   ///< constraints hold the god-object back
   InvalidHip, ///< the HIP is not finite or absurdly far: nothing moved, ask for no force
-  Overloaded  ///< more triangles in one place than a tick may look at: held where it is safe
+  Overloaded, ///< more triangles in one place than a tick may look at: held where it is safe
+  Squeezed    ///< surfaces have closed in and leave no place: ask for no force until they do
 };
 
 /// The outcome of one update.
@@ -35,6 +36,9 @@ struct Contact
   Vec3 Position{};     ///< the god-object, world frame
   Vec3 Displacement{}; ///< god-object minus HIP, world axes; keeps its digits far from the origin
   double Penetration = 0.0; ///< |Displacement| [world unit]
+  /// How far surfaces that moved have taken the god-object along or pushed it since the update
+  /// before; world axes. With the force, the work that they did.
+  Vec3 Carried{};
   int NumberOfConstraints = 0;
   std::array<Constraint, 3> Constraints;
 };
@@ -53,14 +57,23 @@ struct Contact
 ///   on its error and by exact predicates inside it,
 /// - the end of one piece is, bit for bit, the start of the next.
 /// So a closed oriented surface is never entered from its front, and no triangle of any soup is
-/// crossed where both sides are touched. Conditions: the surfaces do not move, and a gap between
-/// facets that do not share corners is no wider than SurfaceOptions::CrackWidth.
+/// crossed where both sides are touched. Condition: a gap between facets that do not share corners
+/// is no wider than SurfaceOptions::CrackWidth.
+///
+/// **Surfaces that move** see the god-object move, and its way in their own frame is certified like
+/// any other: from the point where they last had it, bit for bit, to the next. So nothing passes
+/// through at any speed. A god-object that touches is taken along by the first surface that holds
+/// it, then pushed out of what has come into its place. Where surfaces close in and leave no place,
+/// each keeps a god-object of its own that nothing passes, there is no force
+/// (UpdateStatus::Squeezed), and contact goes on when there is a place again for all.
 ///
 /// **Monotone**: an update never takes the god-object farther from the HIP it is given, beyond
-/// rounding: the premise of the stability bound K <= 2b/T on any static surface.
+/// rounding: the premise of the stability bound K <= 2b/T on any static surface. Advance() may, by
+/// Contact::Carried: that is the surfaces' own work.
 ///
 /// **Bounded**: at most 16 passes of 12 casts, and 131,072 triangles looked up in all; where one
-/// place needs more, the god-object is held there (UpdateStatus::Overloaded).
+/// place needs more, the god-object is held there (UpdateStatus::Overloaded). As much again for
+/// surfaces that move, which are taken on in up to 32 parts of a tick.
 class VTKHAPTICSCORE_EXPORT GodObject
 {
 public:
@@ -74,16 +87,25 @@ public:
   void Place(const Vec3& hip) noexcept;
   /// Starts where another god-object stands, when the surfaces have changed. Servo thread.
   void Continue(const GodObject& previous) noexcept;
+  /// Takes all motions on by `dt` [s], and the god-object with them. Servo thread, before Update();
+  /// no allocation, no lock, bounded work; nothing where no surface can move.
+  void Advance(double dt) noexcept;
   /// Moves the god-object towards the HIP, to where the surfaces let it go. Servo thread; no
   /// allocation, no lock, bounded work. The first update after construction places it.
   const Contact& Update(const Vec3& hip) noexcept;
   const Contact& Current() const noexcept;
 
   /// The corners of the way made in the last update, from where it started; relative to
-  /// WayOrigin(), exactly as certified. Servo thread, until the next update.
+  /// WayOrigin(), exactly as certified by surfaces that have not moved. Servo thread, until the
+  /// next update.
   const Vec3* Way(int& numberOfCorners) const noexcept;
-  /// The first surface's origin, or the world's. [world]
+  /// The first surface's origin as it was when this was made, or the world's. [world]
   Vec3 WayOrigin() const noexcept;
+
+  /// Where the god-object is in a surface's local frame (see TriangleSurface::Origin()), exactly as
+  /// certified: what such a surface sees is this point move on straight lines from call to call.
+  /// Servo thread. `surface`: index in Surfaces().
+  Vec3 LocalPosition(int surface) const noexcept;
 
   const std::vector<TouchedSurface>& Surfaces() const noexcept;
 

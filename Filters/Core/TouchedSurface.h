@@ -1,8 +1,10 @@
 #ifndef TouchedSurface_h
 #define TouchedSurface_h
 
+#include "SurfaceMotion.h"
 #include "TriangleSurface.h"
 
+#include <cstdint>
 #include <memory>
 #include <utility>
 
@@ -12,12 +14,17 @@ namespace haptics
 struct TouchedSurface
 {
   /// A snapshot alone is a surface that stands still.
-  TouchedSurface(std::shared_ptr<const TriangleSurface> surface)
+  TouchedSurface(
+    std::shared_ptr<const TriangleSurface> surface, std::shared_ptr<SurfaceMotion> motion = nullptr)
     : Surface(std::move(surface))
+    , Motion(std::move(motion))
   {
   }
 
   std::shared_ptr<const TriangleSurface> Surface; ///< not null
+  /// How it moves as a rigid body; what the snapshot calls the world is then the surface's own
+  /// frame. Null, the default: it stands still, and costs nothing.
+  std::shared_ptr<SurfaceMotion> Motion;
 };
 }
 

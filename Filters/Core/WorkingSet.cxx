@@ -32,16 +32,13 @@ void Prefetch(const void* address)
 }
 
 WorkingSet::WorkingSet(
-  std::shared_ptr<const TriangleSurface> surface, std::int32_t index, const Vector& offset)
+  std::shared_ptr<const TriangleSurface> surface, std::int32_t index, const SurfaceFrame& frame)
   : Touched(std::move(surface))
   , Index(index)
-  , Offset(offset)
-  // Positions are rounded in the scene frame, which may be far from this surface.
-  , MinimumClearance(std::max(this->Touched->Clearance(),
-      1024.0 * UnitRoundoff * (glm::length(offset) + this->Touched->Radius())))
-  , Reach(LargestGrowth(this->MinimumClearance, this->Touched->Radius()))
+  , ToSurface(frame)
   , RadiusToTry(this->Touched->Radius())
 {
+  this->KeepClearOfRounding();
   const std::size_t capacity = std::min<std::size_t>(LargestSet, this->Touched->Triangles().size());
   this->Found.resize(capacity);
   this->Triangles.resize(capacity);
@@ -53,10 +50,46 @@ WorkingSet::WorkingSet(
   }
 }
 
+/// Positions are rounded in the scene frame, which may be far from this surface.
+void WorkingSet::KeepClearOfRounding()
+{
+  this->MinimumClearance = std::max(this->Touched->Clearance(),
+    1024.0 * UnitRoundoff * (glm::length(this->ToSurface.Origin()) + this->Touched->Radius()));
+  this->Reach = LargestGrowth(this->MinimumClearance, this->Touched->Radius());
+}
+
+void WorkingSet::SetFrame(const SurfaceFrame& frame)
+{
+  this->ToSurface = frame;
+  this->IsTargetMeasured = false;
+  const double farthest = this->MinimumClearance / (1024.0 * UnitRoundoff);
+  if (glm::length(frame.Origin()) + this->Touched->Radius() > farthest)
+  {
+    this->KeepClearOfRounding();
+    // Twice as far, so that one that goes on does not come here in every tick.
+    this->MinimumClearance *= 2.0;
+    this->Reach *= 2.0;
+    this->Covered = Region::Nothing;
+    this->EmptyRadius = 0.0;
+  }
+}
+
 void WorkingSet::Place(const Vector& position)
 {
-  this->Position = position - this->Offset;
+  this->Position = this->ToSurface.PointToLocal(position);
   this->Covered = Region::Nothing;
+}
+
+void WorkingSet::Continue(const WorkingSet& previous)
+{
+  this->MinimumClearance = std::max(this->MinimumClearance, previous.MinimumClearance);
+  this->Reach = std::max(this->Reach, previous.Reach);
+  this->Position = previous.Position;
+  this->Covered = Region::Nothing;
+  // What it has learned of the surface.
+  this->RadiusToTry = previous.RadiusToTry;
+  this->LargestToTry = previous.LargestToTry;
+  this->MostInBall = previous.MostInBall;
 }
 
 bool WorkingSet::IsEmptyAround(const Vector& x) const
@@ -91,7 +124,7 @@ bool WorkingSet::IsFarOut() const
 bool WorkingSet::FindFirstHit(
   const Vector& goal, const ActivePlanes& active, WorkBudget& budget, FacetHit& hit)
 {
-  const Vector to = goal - this->Offset;
+  const Vector to = this->ToSurface.PointToLocal(goal);
   if (this->PassesThroughNothing(to))
   {
     return true;
@@ -449,8 +482,9 @@ FacetHit WorkingSet::Scan(const Vector& to, const ActivePlanes& active)
       deepest = there;
       hit.Fraction = stop;
       hit.Plane.Facet = id;
-      hit.Plane.Normal = this->Flipped[i] ? -normal : normal;
-      hit.Plane.Anchor = a + this->Offset;
+      hit.Plane.IsFlipped = this->Flipped[i];
+      hit.Plane.Normal = this->ToSurface.VectorToScene(this->Flipped[i] ? -normal : normal);
+      hit.Plane.Anchor = this->ToSurface.PointToScene(a);
       hit.Plane.Clearance = clearance;
       hit.Plane.IsFar = this->Covered == Region::Segment;
     }
@@ -460,7 +494,7 @@ FacetHit WorkingSet::Scan(const Vector& to, const ActivePlanes& active)
 
 bool WorkingSet::IsClear(const Vector& target)
 {
-  const Vector to = target - this->Offset;
+  const Vector to = this->ToSurface.PointToLocal(target);
   if (this->PassesThroughNothing(to))
   {
     return true;
@@ -523,11 +557,20 @@ void WorkingSet::Move()
   }
 }
 
+void WorkingSet::Renew(ActivePlane& plane) const
+{
+  const auto [a, b, c] = this->CornersOf(plane.Facet.Triangle);
+  const Vector normal = Facet(a, b, c).Normal;
+  plane.Normal = this->ToSurface.VectorToScene(plane.IsFlipped ? -normal : normal);
+  plane.Anchor = this->ToSurface.PointToScene(a);
+}
+
 bool WorkingSet::Covers(const ActivePlane& plane, const Vector& position) const
 {
   const auto [a, b, c] = this->CornersOf(plane.Facet.Triangle);
-  const bool isFlipped = glm::dot(glm::cross(b - a, c - a), plane.Normal) < 0.0;
-  return CoversGrown(isFlipped ? -plane.Normal : plane.Normal, a, b, c, position - this->Offset,
+  const Vector normal =
+    this->ToSurface.VectorToLocal(plane.IsFlipped ? -plane.Normal : plane.Normal);
+  return CoversGrown(normal, a, b, c, this->ToSurface.PointToLocal(position),
     this->GrowthOf(plane.Facet.Triangle, plane.Clearance, 0.0));
 }
 }

@@ -3,6 +3,7 @@
 
 #include "ActivePlanes.h"
 #include "Facet.h"
+#include "SurfaceFrame.h"
 #include "TriangleSurface.h"
 
 #include <memory>
@@ -37,17 +38,28 @@ struct FacetHit
 ///
 /// All positions are in the scene frame. Inside, the surface's local frame is used: a position
 /// always rounds to the same local point, so that pieces of the path join exactly.
+///
+/// A surface that moves is another frame: the god-object stays at the local point where it was, and
+/// the next motion starts from there, so that what is certified is the way as the surface sees it.
 class WorkingSet
 {
 public:
-  /// `index` names the surface in FacetIds; `offset` is its origin in the scene frame.
+  /// `index` names the surface in FacetIds.
   WorkingSet(
-    std::shared_ptr<const TriangleSurface> surface, std::int32_t index, const Vector& offset);
+    std::shared_ptr<const TriangleSurface> surface, std::int32_t index, const SurfaceFrame& frame);
 
   const TriangleSurface& Surface() const { return *this->Touched; }
 
+  const SurfaceFrame& Frame() const { return this->ToSurface; }
+  /// Moves the surface; the god-object stays at its local point.
+  void SetFrame(const SurfaceFrame& frame);
+  /// Where the god-object is in the surface's local frame, exactly as certified.
+  const Vector& LocalPosition() const { return this->Position; }
+
   /// Puts the god-object somewhere without moving it there.
   void Place(const Vector& position);
+  /// Stands where another set of the same surface has its god-object.
+  void Continue(const WorkingSet& previous);
 
   /// Finds the first facet met on the way to `goal`, short of which the god-object has to stop.
   /// Active facets count only where they would be crossed. False when the budget ends first, or one
@@ -61,6 +73,9 @@ public:
 
   /// Moves to the target of the last IsClear, which must have been true.
   void Move();
+
+  /// The plane as its facet is now.
+  void Renew(ActivePlane& plane) const;
 
   /// Whether the god-object stands over the facet itself, not only over its plane.
   bool Covers(const ActivePlane& plane, const Vector& position) const;
@@ -78,6 +93,7 @@ private:
   /// Keeps of the found triangles those that meet the ball about `middle`. `farthest`: no place
   /// that will be asked for is farther from Centre.
   void Fill(const TriangleList& found, const Vector& middle, double radius, double farthest);
+  void KeepClearOfRounding();
   void Measure(const Vector& x, std::vector<double>& distances) const;
   void MeasurePosition();
   void MeasureTarget(const Vector& to);
@@ -111,9 +127,9 @@ private:
 
   std::shared_ptr<const TriangleSurface> Touched;
   std::int32_t Index;
-  Vector Offset;
-  double MinimumClearance;
-  double Reach; ///< no facet is felt farther than this from itself
+  SurfaceFrame ToSurface;
+  double MinimumClearance = 0.0;
+  double Reach = 0.0; ///< no facet is felt farther than this from itself
 
   Region Covered = Region::Nothing;
   Vector Centre{ 0 };             ///< of the ball; start of the segment

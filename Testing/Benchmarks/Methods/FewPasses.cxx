@@ -1,6 +1,7 @@
-// Compiled once for each HAPTICS_LARGEST_NUMBER_OF_PASSES, which GodObject.cxx takes instead of its
-// own; GodObject is then a macro for a name of its own, so that all fit into one program.
+// Compiled once for each HAPTICS_LARGEST_NUMBER_OF_PASSES, which the god-object takes instead of
+// its own; GodObject is then a macro for a name of its own, so that all fit into one program.
 #include "GodObject.cxx"
+#include "GodObjectMotion.cxx"
 #include "GodObjectMethod.h"
 
 namespace haptics::testing

@@ -1,0 +1,89 @@
+#ifndef GodObjectImplementation_h
+#define GodObjectImplementation_h
+
+#include "GodObject.h"
+#include "WorkingSet.h"
+
+namespace haptics
+{
+/// Fig. 5's two-step transition over a convex edge is made within one update by passes; each lets
+/// go of the planes that held only beyond their facets. Two or three do on a slide; a god-object
+/// that slips off a round body in one tick takes more, and every tick that needs fewer pays none.
+#ifdef HAPTICS_LARGEST_NUMBER_OF_PASSES // by Testing/Benchmarks, to compare
+constexpr int LargestNumberOfPasses = HAPTICS_LARGEST_NUMBER_OF_PASSES;
+#else
+constexpr int LargestNumberOfPasses = 16;
+#endif
+/// A pass meets at most a few facets; more come of rounding.
+constexpr int LargestNumberOfCasts = 12;
+/// Triangles looked up in one update, all passes and surfaces together: a few dozen in practice,
+/// and a few milliseconds at the most.
+constexpr std::int64_t LargestNumberOfTriangles = 1 << 17;
+
+/// Each cast makes at most one motion.
+constexpr int LargestWay = LargestNumberOfPasses * LargestNumberOfCasts + 1;
+
+/// What a god-object does: GodObject.cxx moves it to the HIP, GodObjectMotion.cxx with surfaces
+/// that move.
+class GodObject::Implementation
+{
+public:
+  explicit Implementation(std::vector<TouchedSurface> surfaces);
+
+  void Place(const Vector& position);
+  void Continue(const Implementation& previous);
+  void Advance(double dt);
+  void Update(const Vector& hip);
+
+  std::vector<TouchedSurface> Surfaces;
+  std::vector<WorkingSet> Sets; ///< one a surface
+  Vector Origin{ 0 };           ///< of the scene frame, in the world
+  Vector Position{ 0 };         ///< scene frame
+  bool IsPlaced = false;
+  bool IsOverloaded = false;
+  /// Surfaces close in on the god-object and leave no place that all of them allow: each keeps a
+  /// god-object of its own until they do.
+  bool IsSplit = false;
+  Vector Carried{ 0 }; ///< by surfaces that moved, since the last update
+  ActivePlanes Active;
+  Contact Result;
+  std::array<Vec3, LargestWay> Way;
+  int WaySize = 0;
+
+private:
+  /// A surface that can move, and the pose that its set has.
+  struct Mover
+  {
+    std::int32_t Surface = -1;
+    SurfaceMotion* Motion = nullptr;
+    Vector Pivot{ 0 };
+    RigidPose Pose;
+    std::uint64_t Jumps = 0;
+    SurfaceFrame Before; ///< while a step is tried
+  };
+
+  void Walk(const Vector& hip);
+  bool Pass(const Vector& hip);
+  bool MoveTowards(const Vector& target);
+  bool IsSupported() const;
+  bool IsOver(const ActivePlane& plane) const;
+
+  SurfaceFrame FrameOf(std::int32_t surface, const RigidPose& pose) const;
+  void TakePose(Mover& mover);
+  bool Step(double fraction);
+  bool MoveAll(const Vector& wish, ActivePlanes& planes);
+  bool FindFirstHit(const Vector& goal, const ActivePlanes& planes, FacetHit& hit);
+  bool IsClear(const Vector& to);
+  void MoveSets();
+  bool Join(const Vector& hip);
+
+  std::vector<SurfaceMotion*> Motions; ///< each once
+  std::vector<Mover> Movers;
+  WorkBudget Budget;
+  /// The surfaces that count: all, but for a god-object that is split.
+  std::size_t First = 0;
+  std::size_t Last = 0;
+};
+}
+
+#endif
