@@ -23,6 +23,8 @@ GodObject::Implementation::Implementation(std::vector<TouchedSurface> surfaces)
     const Vec3& origin = first.Surface->Origin();
     this->Origin = ToVector(first.Motion ? first.Motion->Read().Pose.PointToWorld(origin) : origin);
   }
+  this->HasProperties = std::any_of(this->Surfaces.begin(), this->Surfaces.end(),
+    [](const TouchedSurface& touched) { return touched.Properties != nullptr; });
   this->Sets.reserve(this->Surfaces.size());
   for (const TouchedSurface& touched : this->Surfaces)
   {
@@ -50,6 +52,7 @@ void GodObject::Implementation::Place(const Vector& position)
   this->IsSplit = false;
   this->Carried = Vector(0.0);
   this->Active.Clear();
+  this->Cone.Reset();
   for (Mover& mover : this->Movers)
   {
     this->TakePose(mover);
@@ -66,24 +69,31 @@ void GodObject::Implementation::Update(const Vector& hip)
   this->IsOverloaded = false;
   this->Way[0] = ToVec3(this->Position);
   this->WaySize = 1;
+  this->PassesLeft = LargestNumberOfPasses;
   if (this->IsSplit && !this->Join(hip))
   {
+    return;
+  }
+  if (this->HasProperties)
+  {
+    this->WalkWithFriction(hip);
     return;
   }
   this->Walk(hip);
 }
 
-void GodObject::Implementation::Walk(const Vector& hip)
+/// Moves to the nearest point to the goal that the surfaces let it reach.
+void GodObject::Implementation::Walk(const Vector& goal)
 {
-  for (int pass = 0; pass < LargestNumberOfPasses; ++pass)
+  while (this->PassesLeft-- > 0)
   {
     const Vector before = this->Position;
-    const bool arrived = this->Pass(hip);
-    if (this->IsOverloaded || this->Position == hip || (arrived && this->IsSupported()))
+    const bool arrived = this->Pass(goal);
+    if (this->IsOverloaded || this->Position == goal || (arrived && this->IsSupported()))
     {
       break;
     }
-    if (SquaredLength(this->Position - before) <= 1e-18 * SquaredLength(hip - before))
+    if (SquaredLength(this->Position - before) <= 1e-18 * SquaredLength(goal - before))
     {
       break;
     }
@@ -243,6 +253,7 @@ void GodObject::Continue(const GodObject& previous) noexcept
   {
     this->Internal->Continue(*previous.Internal);
     this->Internal->Result = previous.Internal->Result;
+    this->Internal->StayInContact(*previous.Internal);
   }
 }
 
@@ -302,6 +313,7 @@ const Contact& GodObject::Update(const Vec3& hip) noexcept
       result.Constraints[i] = { ToVec3(plane.Normal), plane.Facet.Surface, plane.Facet.Triangle };
     }
   }
+  god.UpdateFeel();
   return result;
 }
 

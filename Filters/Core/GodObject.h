@@ -1,6 +1,7 @@
 #ifndef GodObject_h
 #define GodObject_h
 
+#include "Feel.h"
 #include "TouchedSurface.h"
 #include "Vec3.h"
 #include "vtkHapticsCoreModule.h"
@@ -41,6 +42,8 @@ struct Contact
   Vec3 Carried{};
   int NumberOfConstraints = 0;
   std::array<Constraint, 3> Constraints;
+  Feel Felt;     ///< of the surfaces there; plain where none of the god-object's has properties
+  Vec3 Shaded{}; ///< Displacement turned by force shading; only where Felt.IsShaded
 };
 
 /// @brief The constraint-based god-object of Zilles and Salisbury (1995), certified against leaks.
@@ -70,6 +73,11 @@ struct Contact
 /// **Monotone**: an update never takes the god-object farther from the HIP it is given, beyond
 /// rounding: the premise of the stability bound K <= 2b/T on any static surface. Advance() may, by
 /// Contact::Carried: that is the surfaces' own work.
+///
+/// **Friction**: where the surfaces in contact have some, the god-object stays, bit for bit, while
+/// the HIP pulls within the static friction's cone, and else moves to the side of the dynamic
+/// friction's cone (class Friction). It only changes what an update aims at: all of the above
+/// stands.
 ///
 /// **Bounded**: at most 16 passes of 12 casts, and 131,072 triangles looked up in all; where one
 /// place needs more, the god-object is held there (UpdateStatus::Overloaded). As much again for

@@ -1,6 +1,7 @@
 #ifndef GodObjectImplementation_h
 #define GodObjectImplementation_h
 
+#include "Friction.h"
 #include "GodObject.h"
 #include "WorkingSet.h"
 
@@ -24,7 +25,7 @@ constexpr std::int64_t LargestNumberOfTriangles = 1 << 17;
 constexpr int LargestWay = LargestNumberOfPasses * LargestNumberOfCasts + 1;
 
 /// What a god-object does: GodObject.cxx moves it to the HIP, GodObjectMotion.cxx with surfaces
-/// that move.
+/// that move, GodObjectFeel.cxx tells what they feel like and lets friction hold it.
 class GodObject::Implementation
 {
 public:
@@ -34,6 +35,8 @@ public:
   void Continue(const Implementation& previous);
   void Advance(double dt);
   void Update(const Vector& hip);
+  void UpdateFeel();
+  void StayInContact(const Implementation& previous);
 
   std::vector<TouchedSurface> Surfaces;
   std::vector<WorkingSet> Sets; ///< one a surface
@@ -44,7 +47,8 @@ public:
   /// Surfaces close in on the god-object and leave no place that all of them allow: each keeps a
   /// god-object of its own until they do.
   bool IsSplit = false;
-  Vector Carried{ 0 }; ///< by surfaces that moved, since the last update
+  bool HasProperties = false; ///< of any surface
+  Vector Carried{ 0 };        ///< by surfaces that moved, since the last update
   ActivePlanes Active;
   Contact Result;
   std::array<Vec3, LargestWay> Way;
@@ -62,7 +66,9 @@ private:
     SurfaceFrame Before; ///< while a step is tried
   };
 
-  void Walk(const Vector& hip);
+  void WalkWithFriction(const Vector& hip);
+  Vector AimWithFriction(const Vector& hip);
+  void Walk(const Vector& goal);
   bool Pass(const Vector& hip);
   bool MoveTowards(const Vector& target);
   bool IsSupported() const;
@@ -80,6 +86,8 @@ private:
   std::vector<SurfaceMotion*> Motions; ///< each once
   std::vector<Mover> Movers;
   WorkBudget Budget;
+  int PassesLeft = 0; ///< of this update
+  Friction Cone;
   /// The surfaces that count: all, but for a god-object that is split.
   std::size_t First = 0;
   std::size_t Last = 0;

@@ -176,6 +176,7 @@ bool GodObject::Implementation::Join(const Vector& hip)
     this->Position = this->Sets[i].Frame().PointToScene(this->Sets[i].LocalPosition());
     this->Active.Clear();
     this->WaySize = 1;
+    this->PassesLeft = LargestNumberOfPasses;
     this->Walk(hip);
     isTogether =
       isTogether && this->Sets[i].LocalPosition() == this->Sets[i].Frame().PointToLocal(hip);

@@ -2,6 +2,7 @@
 #define TouchedSurface_h
 
 #include "SurfaceMotion.h"
+#include "SurfaceProperties.h"
 #include "TriangleSurface.h"
 
 #include <cstdint>
@@ -13,11 +14,13 @@ namespace haptics
 /// One surface as a god-object touches it: its snapshot, and all that is not geometry.
 struct TouchedSurface
 {
-  /// A snapshot alone is a surface that stands still.
-  TouchedSurface(
-    std::shared_ptr<const TriangleSurface> surface, std::shared_ptr<SurfaceMotion> motion = nullptr)
+  /// A snapshot alone is a surface that stands still, frictionless, with the servo's stiffness.
+  TouchedSurface(std::shared_ptr<const TriangleSurface> surface,
+    std::shared_ptr<SurfaceMotion> motion = nullptr,
+    std::shared_ptr<const SurfaceProperties> properties = nullptr)
     : Surface(std::move(surface))
     , Motion(std::move(motion))
+    , Properties(std::move(properties))
   {
   }
 
@@ -25,6 +28,8 @@ struct TouchedSurface
   /// How it moves as a rigid body; what the snapshot calls the world is then the surface's own
   /// frame. Null, the default: it stands still, and costs nothing.
   std::shared_ptr<SurfaceMotion> Motion;
+  /// How it feels; built for Surface. Null, the default: plain, and costs nothing.
+  std::shared_ptr<const SurfaceProperties> Properties;
 };
 }
 

@@ -573,4 +573,27 @@ bool WorkingSet::Covers(const ActivePlane& plane, const Vector& position) const
   return CoversGrown(normal, a, b, c, this->ToSurface.PointToLocal(position),
     this->GrowthOf(plane.Facet.Triangle, plane.Clearance, 0.0));
 }
+
+std::array<double, 3> WorkingSet::CornerWeights(std::int32_t triangle) const
+{
+  const auto [a, b, c] = this->CornersOf(triangle);
+  const Vector normal = glm::cross(b - a, c - a);
+  std::array<double, 3> weights = { glm::dot(normal, glm::cross(c - b, this->Position - b)),
+    glm::dot(normal, glm::cross(a - c, this->Position - c)),
+    glm::dot(normal, glm::cross(b - a, this->Position - a)) };
+  for (double& weight : weights)
+  {
+    weight = std::max(weight, 0.0); // a clearance beyond an edge
+  }
+  const double sum = weights[0] + weights[1] + weights[2];
+  if (!(sum > 0.0))
+  {
+    return { 1.0, 0.0, 0.0 };
+  }
+  for (double& weight : weights)
+  {
+    weight /= sum;
+  }
+  return weights;
+}
 }

@@ -6,6 +6,7 @@
 #include "SurfaceFrame.h"
 #include "TriangleSurface.h"
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -79,6 +80,9 @@ public:
 
   /// Whether the god-object stands over the facet itself, not only over its plane.
   bool Covers(const ActivePlane& plane, const Vector& position) const;
+
+  /// How much each corner of a triangle counts where the god-object stands over it: >= 0, sum 1.
+  std::array<double, 3> CornerWeights(std::int32_t triangle) const;
 
 private:
   enum class Region

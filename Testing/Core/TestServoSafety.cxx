@@ -1,9 +1,10 @@
 // An update in the servo thread may not allocate: this program counts every malloc.
 #include "AnalyticSurfaces.h"
-#include "GodObject.h"
+#include "FeelTools.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <random>
 
@@ -37,11 +38,10 @@ TEST(ServoSafety, TheCounterCounts)
 
 TEST(ServoSafety, NoUpdateAllocates)
 {
-  const std::vector<TouchedSurface> surfaces = {
-    MakeSurface(Star(4, 1.0, 0.4, 3)), MakeSurface(Box(1, 1, 1, 8)),
-    MakeSurface(Soup(500, 0.4, 2), Side::Both), MakeSurface(Square(1.0, 4), Side::Both),
-    MakeSurface(Icosphere(6, 1.0)), MakeSurface(Square(1.0), Side::Both, EngineKind::BruteForce)
-  };
+  const std::vector<TouchedSurface> surfaces = { MakeSurface(Star(4, 1.0, 0.4, 3)),
+    MakeSurface(Box(1, 1, 1, 8)), MakeSurface(Soup(500, 0.4, 2), Side::Both),
+    MakeSurface(Square(1.0, 4), Side::Both), MakeSurface(Icosphere(6, 1.0)),
+    MakeSurface(Square(1.0), Side::Both, EngineKind::BruteForce) };
   for (const TouchedSurface& surface : surfaces)
   {
     GodObject god({ surface });
@@ -71,4 +71,24 @@ TEST(ServoSafety, NoUpdateAllocates)
     }
     EXPECT_EQ(total, 0);
   }
+}
+
+TEST(ServoSafety, NoPropertyAllocates)
+{
+  const auto surface = MakeSurface(Icosphere(3, 0.05));
+  PropertyValues values = Everywhere(400.0, 1.0, 0.5, 0.3, 0.2);
+  values[Property::Stiffness] =
+    AtPoints(*surface, [](const Vec3& p) { return 400.0 + 4000.0 * p[0]; });
+  values.Shading = true;
+  FeltHand hand(Touchable(surface, values), { 0.06, 0, 0 });
+  IsCounting = true;
+  Allocations = 0;
+  for (int tick = 0; tick < 5000; ++tick)
+  {
+    const double a = 2e-3 * tick;
+    hand.Move({ 0.048 * std::cos(a), 0.048 * std::sin(a), 0.01 * std::sin(0.3 * a) });
+  }
+  IsCounting = false;
+  EXPECT_EQ(Allocations, 0);
+  EXPECT_NE(hand.Last, Vec3{});
 }

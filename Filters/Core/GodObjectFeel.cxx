@@ -1,0 +1,120 @@
+#include "FeelBlend.h"
+#include "GodObjectImplementation.h"
+
+#include <algorithm>
+
+namespace haptics
+{
+namespace
+{
+/// A slide over a bent surface is made in so many steps at most: after each the cone stands on
+/// another facet.
+constexpr int LargestNumberOfSlides = 4;
+}
+
+/// Moves as far as friction lets the HIP pull the god-object.
+void GodObject::Implementation::WalkWithFriction(const Vector& hip)
+{
+  for (int slide = 0; slide < LargestNumberOfSlides; ++slide)
+  {
+    const Vector goal = this->AimWithFriction(hip);
+    if (goal == hip)
+    {
+      break;
+    }
+    if (goal == this->Position)
+    {
+      return; // stuck, or slid as far as the friction lets it
+    }
+    this->Walk(goal);
+    const bool isHeld = this->Active.SupportSize() > 0;
+    if (this->IsOverloaded || (isHeld && slide + 1 == LargestNumberOfSlides))
+    {
+      return;
+    }
+  }
+  this->Walk(hip);
+}
+
+/// Where friction lets the god-object aim at: its own place while stuck, the HIP without friction.
+Vector GodObject::Implementation::AimWithFriction(const Vector& hip)
+{
+  // What the last update found here; the god-object has not moved over its surface since.
+  const Feel& felt = this->Result.Felt;
+  if (felt.StaticFriction <= 0.0 || this->Active.IsEmpty())
+  {
+    return hip;
+  }
+  this->Active.KeepSupports([this](const ActivePlane& plane) { return this->IsOver(plane); });
+  const Vector nearest = this->Active.IsEmpty() ? hip : this->Active.Nearest(this->Position, hip);
+  if (this->Active.SupportSize() == 0)
+  {
+    this->Cone.Reset();
+    return hip;
+  }
+  return this->Cone.Aim(this->Position, nearest, hip, felt.StaticFriction, felt.DynamicFriction);
+}
+
+/// Tells what the surfaces that hold the god-object feel like here.
+void GodObject::Implementation::UpdateFeel()
+{
+  if (!this->HasProperties)
+  {
+    return;
+  }
+  FeelBlend blend;
+  const Vector displacement = ToVector(this->Result.Displacement);
+  for (int i = 0; i < this->Result.NumberOfConstraints; ++i)
+  {
+    const ActivePlane& plane = this->Active.Support(i);
+    const double push = glm::dot(plane.Normal, displacement);
+    if (!(push > 0.0))
+    {
+      continue;
+    }
+    Feel feel;
+    Vector shaded(0.0);
+    const TouchedSurface& touched = this->Surfaces[plane.Facet.Surface];
+    if (const SurfaceProperties* properties = touched.Properties.get())
+    {
+      const std::int32_t triangle = plane.Facet.Triangle;
+      const WorkingSet& set = this->Sets[plane.Facet.Surface];
+      const auto weights = set.CornerWeights(triangle);
+      feel = properties->At(touched.Surface->Triangles()[triangle], triangle, weights);
+      if (properties->IsShaded())
+      {
+        shaded = set.Frame().VectorToScene(ToVector(properties->NormalAt(triangle, weights)));
+      }
+    }
+    blend.Add(feel, push, plane.Normal, shaded);
+  }
+  this->Result.Felt = blend.Blended();
+  if (this->Result.Felt.IsShaded)
+  {
+    this->Result.Shaded = ToVec3(blend.Shade(displacement));
+  }
+}
+
+/// Keeps what held another god-object, at the same place, where only properties have changed: so
+/// that one held by friction stays.
+void GodObject::Implementation::StayInContact(const Implementation& previous)
+{
+  const bool isSameShape = std::equal(this->Surfaces.begin(), this->Surfaces.end(),
+    previous.Surfaces.begin(), previous.Surfaces.end(),
+    [](const TouchedSurface& a, const TouchedSurface& b)
+    { return a.Surface == b.Surface && a.Motion == b.Motion; });
+  this->Result.Felt = Feel();
+  if (!isSameShape || previous.Active.IsEmpty())
+  {
+    return;
+  }
+  this->Active = previous.Active;
+  this->Cone = previous.Cone;
+  if (!this->Movers.empty())
+  {
+    this->Active.Renew(
+      [this](ActivePlane& plane) { this->Sets[plane.Facet.Surface].Renew(plane); });
+  }
+  this->UpdateFeel();
+}
+}

@@ -1,0 +1,256 @@
+#include "SurfaceProperties.h"
+
+#include "ShadingNormals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace haptics
+{
+namespace
+{
+const char* const Names[NumberOfProperties] = { "stiffness", "damping", "static friction",
+  "dynamic friction", "texture" };
+
+bool IsGood(Property property, double value)
+{
+  switch (property)
+  {
+    case Property::Stiffness:
+      return std::isnan(value) || (std::isfinite(value) && value >= 0.0);
+    case Property::Texture:
+      return std::abs(value) <= LargestTexture; // false for NaN
+    default:
+      return std::isfinite(value) && value >= 0.0;
+  }
+}
+
+std::string FindFault(Property property, const PropertyField& field, const TriangleSurface& surface)
+{
+  const std::string name = Names[static_cast<int>(property)];
+  if (!IsGood(property, field.Constant))
+  {
+    return "the constant " + name + " is " + std::to_string(field.Constant);
+  }
+  if (field.Values.empty())
+  {
+    return {};
+  }
+  const std::size_t wanted =
+    field.IsPerTriangle ? surface.Triangles().size() : surface.Points().size();
+  const char* const places = field.IsPerTriangle ? "triangles" : "points";
+  if (field.Values.size() != wanted)
+  {
+    return "there are " + std::to_string(field.Values.size()) + " values of " + name + " for " +
+      std::to_string(wanted) + " " + places;
+  }
+  const auto bad = std::find_if(field.Values.begin(), field.Values.end(),
+    [property](float value) { return !IsGood(property, value); });
+  if (bad != field.Values.end())
+  {
+    return "the " + name + " of number " + std::to_string(bad - field.Values.begin()) + " of the " +
+      places + " is " + std::to_string(*bad);
+  }
+  return {};
+}
+
+std::string FindFault(const TextureImage& image, const TriangleSurface& surface)
+{
+  if (image.Width <= 0 || image.Height <= 0 ||
+    image.Values.size() != static_cast<std::size_t>(image.Width) * image.Height)
+  {
+    return "the texture image says " + std::to_string(image.Width) + " x " +
+      std::to_string(image.Height) + " pixels and has " + std::to_string(image.Values.size());
+  }
+  if (image.Coordinates.size() != surface.Points().size())
+  {
+    return "the texture image has coordinates for " + std::to_string(image.Coordinates.size()) +
+      " of " + std::to_string(surface.Points().size()) + " points";
+  }
+  if (!std::all_of(image.Values.begin(), image.Values.end(),
+        [](float value) { return IsGood(Property::Texture, value); }))
+  {
+    return "the texture image has a value that is not finite or beyond half the force";
+  }
+  // Larger ones have no digits left for a place within the picture.
+  if (!std::all_of(image.Coordinates.begin(), image.Coordinates.end(),
+        [](const auto& c) { return std::abs(c[0]) < 1e6 && std::abs(c[1]) < 1e6; }))
+  {
+    return "a texture coordinate is not finite, or beyond 1e6";
+  }
+  return {};
+}
+
+/// The dynamic friction may not be above the static one at any place: it is enough that it is not
+/// at the corners, as both are interpolated alike.
+std::string FindFrictionFault(const PropertyValues& values, const TriangleSurface& surface)
+{
+  const PropertyField& hold = values.Fields[static_cast<int>(Property::StaticFriction)];
+  const PropertyField& slide = values.Fields[static_cast<int>(Property::DynamicFriction)];
+  const auto at = [](const PropertyField& field, std::size_t point, std::size_t triangle)
+  {
+    return field.Values.empty() ? field.Constant
+                                : field.Values[field.IsPerTriangle ? triangle : point];
+  };
+  for (std::size_t i = 0; i < surface.Triangles().size(); ++i)
+  {
+    for (const std::int32_t corner : surface.Triangles()[i])
+    {
+      const double s = at(hold, corner, i);
+      const double d = at(slide, corner, i);
+      if (d > s * (1.0 + 1e-6))
+      {
+        return "the dynamic friction at point " + std::to_string(corner) + " is " +
+          std::to_string(d) + ", above the static one, which is " + std::to_string(s);
+      }
+    }
+    if (hold.Values.empty() && slide.Values.empty())
+    {
+      break; // the same everywhere
+    }
+  }
+  return {};
+}
+}
+
+PropertyValues::PropertyValues()
+{
+  (*this)[Property::Stiffness].Constant = std::numeric_limits<double>::quiet_NaN();
+}
+
+std::shared_ptr<const SurfaceProperties> SurfaceProperties::Build(
+  PropertyValues values, const TriangleSurface& surface, std::string& error)
+{
+  error.clear();
+  for (int i = 0; i < NumberOfProperties && error.empty(); ++i)
+  {
+    error = FindFault(static_cast<Property>(i), values.Fields[i], surface);
+  }
+  if (error.empty())
+  {
+    error = FindFrictionFault(values, surface);
+  }
+  if (error.empty() && values.Image)
+  {
+    error = FindFault(*values.Image, surface);
+  }
+  if (error.empty() && !(values.FeatureAngle >= 0.0 && values.FeatureAngle <= 180.0))
+  {
+    error =
+      "the feature angle is " + std::to_string(values.FeatureAngle) + " degrees, not 0 to 180";
+  }
+  if (!error.empty())
+  {
+    return nullptr;
+  }
+  std::shared_ptr<SurfaceProperties> properties(new SurfaceProperties);
+  properties->Given = std::move(values);
+  if (properties->Given.Shading)
+  {
+    properties->Normals = ShadingNormals(surface, properties->Given.FeatureAngle);
+  }
+  return properties;
+}
+
+double SurfaceProperties::Value(Property property, const Triangle& corners, std::int32_t triangle,
+  const Corners& weights) const noexcept
+{
+  const PropertyField& field = this->Given.Fields[static_cast<int>(property)];
+  if (field.Values.empty())
+  {
+    return field.Constant;
+  }
+  if (field.IsPerTriangle)
+  {
+    return field.Values[triangle];
+  }
+  return weights[0] * field.Values[corners[0]] + weights[1] * field.Values[corners[1]] +
+    weights[2] * field.Values[corners[2]];
+}
+
+Feel SurfaceProperties::At(
+  const Triangle& corners, std::int32_t triangle, const Corners& weights) const noexcept
+{
+  Feel feel;
+  feel.IsPlain = false;
+  const PropertyField& stiffness = this->Given.Fields[static_cast<int>(Property::Stiffness)];
+  if (stiffness.Values.empty() || stiffness.IsPerTriangle)
+  {
+    const double value = stiffness.IsPerTriangle && !stiffness.Values.empty()
+      ? stiffness.Values[triangle]
+      : stiffness.Constant;
+    feel.PlainShare = std::isnan(value) ? 1.0 : 0.0;
+    feel.Stiffness = std::isnan(value) ? 0.0 : value;
+  }
+  else
+  {
+    // A corner without a stiffness of its own counts with the servo's.
+    feel.PlainShare = 0.0;
+    for (int k = 0; k < 3; ++k)
+    {
+      const float value = stiffness.Values[corners[k]];
+      (std::isnan(value) ? feel.PlainShare : feel.Stiffness) +=
+        std::isnan(value) ? weights[k] : weights[k] * value;
+    }
+  }
+  feel.Damping = this->Value(Property::Damping, corners, triangle, weights);
+  feel.StaticFriction = this->Value(Property::StaticFriction, corners, triangle, weights);
+  feel.DynamicFriction = this->Value(Property::DynamicFriction, corners, triangle, weights);
+  feel.Texture = this->Value(Property::Texture, corners, triangle, weights);
+  if (this->Given.Image)
+  {
+    feel.Texture =
+      std::clamp(feel.Texture + this->Grey(corners, weights), -LargestTexture, LargestTexture);
+  }
+  feel.Profile = this->Given.Profile.get();
+  return feel;
+}
+
+double SurfaceProperties::Grey(const Triangle& corners, const Corners& weights) const noexcept
+{
+  const TextureImage& image = *this->Given.Image;
+  double place[2];
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    double at = 0.0;
+    for (int k = 0; k < 3; ++k)
+    {
+      at += weights[k] * image.Coordinates[corners[k]][axis];
+    }
+    place[axis] = at - std::floor(at);
+  }
+  // Values are those of the pixels' middles.
+  const auto pixels = [](double at, int size, int& low, int& high)
+  {
+    const double x = at * size - 0.5;
+    const int floor = static_cast<int>(std::floor(x));
+    low = (floor + size) % size;
+    high = (floor + 1) % size;
+    return x - floor;
+  };
+  int left, right, below, above;
+  const double across = pixels(place[0], image.Width, left, right);
+  const double up = pixels(place[1], image.Height, below, above);
+  const auto grey = [&image](int column, int row) {
+    return static_cast<double>(image.Values[static_cast<std::size_t>(row) * image.Width + column]);
+  };
+  const double low = grey(left, below) + across * (grey(right, below) - grey(left, below));
+  const double high = grey(left, above) + across * (grey(right, above) - grey(left, above));
+  return low + up * (high - low);
+}
+
+Vec3 SurfaceProperties::NormalAt(std::int32_t triangle, const Corners& weights) const noexcept
+{
+  Vec3 normal{};
+  for (int k = 0; k < 3; ++k)
+  {
+    const auto& corner = this->Normals[3 * static_cast<std::size_t>(triangle) + k];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      normal[axis] += weights[k] * corner[axis];
+    }
+  }
+  return normal;
+}
+}
