@@ -2,26 +2,31 @@
 #define HapticSceneInternals_h
 
 #include "BackgroundWorker.h"
+#include "HapticAssembly.h"
 #include "SceneEvents.h"
 #include "SurfaceSet.h"
 #include "TickRecord.h"
 #include "TraceRecorder.h"
 #include "vtkHapticScene.h"
 
+#include <array>
 #include <optional>
 #include <vector>
 
-/// What a vtkHapticScene is made of, for its two source files.
+/// What a vtkHapticScene is made of, for its source files.
 class vtkHapticScene::Internals
 {
 public:
   haptics::BackgroundWorker Worker; // outlives the surfaces that give it work
   haptics::SurfaceSet Surfaces;
+  std::vector<haptics::HapticAssembly> Assemblies; // whose parts are among the surfaces
   bool BackgroundBuilding = false;
   bool WasBuilding = false; ///< as observers were told last
   double BuildProgress = 1.0;
   haptics::TraceRecorder Recorder;
   haptics::SceneEvents Events;
+  std::array<double, 16> HomeWorkspace{}; ///< as it was set or fitted last
+  bool WorkspaceChosen = false;           ///< it was set or fitted at all
   int DeviceState = 0;
   bool Clutched = false;
   bool ClutchMoved = false; ///< what is touched has to be published anew

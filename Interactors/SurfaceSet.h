@@ -36,6 +36,8 @@ public:
     this->Surfaces.push_back(std::make_unique<HapticSurface>(this->NextId, source));
     return this->NextId++;
   }
+  /// An id that no surface has or will have.
+  int TakeId() { return this->NextId++; }
   bool Remove(int id);
   void Clear();
 

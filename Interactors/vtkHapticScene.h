@@ -36,6 +36,7 @@
 
 class vtkActor;
 class vtkAlgorithmOutput;
+class vtkAssembly;
 class vtkCamera;
 class vtkGodObjectActor;
 class vtkGodObjectFilter;
@@ -87,16 +88,25 @@ public:
    * An actor is followed: geometry, matrix (mirrored and scaled ones too), visibility and
    * pickability; one that is hidden or not pickable is not touched. Adding it again returns the id
    * that it has. Geometry given directly is in the world frame.
+   *
+   * Of an assembly every actor becomes a surface, with an id of its own, at the place where the
+   * assembly has it; parts that come, go, move, are shown or hidden are followed. The id returned
+   * is the assembly's as a whole, to remove it.
    */
   int AddSurface(vtkActor* actor);
+  int AddSurface(vtkAssembly* assembly);
   int AddSurface(vtkAlgorithmOutput* geometry);
   int AddSurface(vtkPolyData* geometry);
   ///@}
 
   ///@{
-  /** Removes a surface. False where it is not in the scene. Takes effect at the next Update(). */
+  /**
+   * Removes a surface, or a whole assembly. False where it is not in the scene, or only a part of
+   * an assembly: hide that. Takes effect at the next Update().
+   */
   bool RemoveSurface(int id);
   bool RemoveSurface(vtkActor* actor);
+  bool RemoveSurface(vtkAssembly* assembly);
   void RemoveAllSurfaces();
   ///@}
 
@@ -105,6 +115,8 @@ public:
   int GetSurfaceId(int i);
   /** The actor of a surface; null where it was added as geometry or is not in the scene. */
   vtkActor* GetSurfaceActor(int id);
+  /** The assembly that a surface is a part of, or that has this id as a whole; null elsewhere. */
+  vtkAssembly* GetSurfaceAssembly(int id);
   /** The filter that prepares a surface: side, engine, report. Null where there is no such id. */
   vtkGodObjectFilter* GetSurfaceFilter(int id);
   /** Whether a surface can be felt now: shown, and its geometry was good at least once. */
@@ -174,6 +186,11 @@ public:
   bool FitWorkspace(vtkCamera* camera = nullptr);
   /** As above, for bounds (xmin, xmax, ymin, ymax, zmin, zmax) in the world frame. */
   bool FitWorkspace(const double bounds[6], vtkCamera* camera = nullptr);
+  /**
+   * Puts the workspace back to where it was set or fitted last, and takes the clutch off: what
+   * scaling and clutching have moved since is forgotten.
+   */
+  void ResetWorkspace();
 
   ///@{
   /**
@@ -182,6 +199,11 @@ public:
    * takes in the last ticks; the device stays open.
    */
   bool Engage();
+  /**
+   * Engages as a view does: where the workspace was never set nor fitted it is fitted first to the
+   * surfaces, aligned with the camera (the world's axes where it is null).
+   */
+  bool EngageInView(vtkCamera* camera);
   void Release();
   bool IsEngaged();
   ///@}
@@ -304,6 +326,7 @@ private:
   bool OpenDevice(vtkHapticDevice* device);
   bool PullSurfaces();
   void FinishBuilds();
+  bool MoveWorkspace(vtkMatrix4x4* deviceToWorld);
   void TellOfBuilds();
   bool PullState();
   void PullRecords();

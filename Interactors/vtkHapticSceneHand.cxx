@@ -1,4 +1,4 @@
-// What the hand of a vtkHapticScene does beside touching: landmarks, clutch, scale.
+// What the hand of a vtkHapticScene does beside touching: landmarks, clutch.
 #include "vtkHapticScene.h"
 
 #include "HapticSceneInternals.h"
@@ -83,7 +83,7 @@ void vtkHapticScene::SetClutched(bool clutched)
       const double wanted = this->GodObject[i] + this->Internal->LiftOff[i];
       moved->SetElement(i, 3, moved->GetElement(i, 3) + wanted - world[i]);
     }
-    this->SetWorkspaceTransform(moved);
+    this->MoveWorkspace(moved);
   }
   this->Internal->Clutched = clutched;
   this->Internal->ClutchMoved = true;
@@ -94,31 +94,4 @@ void vtkHapticScene::SetClutched(bool clutched)
 bool vtkHapticScene::GetClutched()
 {
   return this->Internal->Clutched;
-}
-
-bool vtkHapticScene::ScaleWorkspace(double factor)
-{
-  if (!std::isfinite(factor) || !(factor > 0.0))
-  {
-    this->Fail("The workspace cannot be scaled by " + std::to_string(factor) +
-      ". Give a finite factor > 0.");
-    return false;
-  }
-  vtkNew<vtkMatrix4x4> scaled;
-  scaled->DeepCopy(this->Workspace);
-  // The device's place goes to where the god-object is, so that the hand does not jump through the
-  // surface that holds it.
-  double device[4] = { 0.0, 0.0, 0.0, 1.0 };
-  this->Servo->GetDevicePosition(device);
-  for (int i = 0; i < 3; ++i)
-  {
-    double turned = 0.0;
-    for (int j = 0; j < 3; ++j)
-    {
-      scaled->SetElement(i, j, factor * scaled->GetElement(i, j));
-      turned += scaled->GetElement(i, j) * device[j];
-    }
-    scaled->SetElement(i, 3, this->GodObject[i] - turned);
-  }
-  return this->SetWorkspaceTransform(scaled);
 }

@@ -1,21 +1,17 @@
-// What a vtkHapticScene touches, and how the device's workspace lies over it.
+// What a vtkHapticScene touches.
 #include "vtkHapticScene.h"
 
 #include "HapticSceneInternals.h"
 #include "SurfaceRay.h"
-#include "WorkspaceFit.h"
-#include "WorkspaceTransform.h"
 #include "vtkActor.h"
 #include "vtkAlgorithmOutput.h"
-#include "vtkBoundingBox.h"
-#include "vtkCamera.h"
+#include "vtkAssembly.h"
 #include "vtkGodObjectFilter.h"
-#include "vtkHapticDevice.h"
 #include "vtkHapticServo.h"
-#include "vtkMatrix4x4.h"
 #include "vtkPolyData.h"
 #include "vtkTrivialProducer.h"
 
+#include <algorithm>
 #include <utility>
 
 int vtkHapticScene::AddSurface(vtkActor* actor)
@@ -31,6 +27,25 @@ int vtkHapticScene::AddSurface(vtkActor* actor)
   }
   this->Modified();
   return this->Internal->Surfaces.Add(actor);
+}
+
+int vtkHapticScene::AddSurface(vtkAssembly* assembly)
+{
+  if (!assembly)
+  {
+    this->Fail("There is no assembly to add as surfaces. Give one.");
+    return -1;
+  }
+  auto& assemblies = this->Internal->Assemblies;
+  const auto known = std::find_if(assemblies.begin(), assemblies.end(),
+    [assembly](const haptics::HapticAssembly& a) { return a.Source() == assembly; });
+  if (known != assemblies.end())
+  {
+    return known->Id();
+  }
+  this->Modified();
+  assemblies.emplace_back(this->Internal->Surfaces.TakeId(), assembly);
+  return assemblies.back().Id();
 }
 
 int vtkHapticScene::AddSurface(vtkAlgorithmOutput* geometry)
@@ -58,7 +73,17 @@ int vtkHapticScene::AddSurface(vtkPolyData* geometry)
 
 bool vtkHapticScene::RemoveSurface(int id)
 {
-  const bool removed = this->Internal->Surfaces.Remove(id);
+  auto& assemblies = this->Internal->Assemblies;
+  const auto assembly = std::find_if(assemblies.begin(), assemblies.end(),
+    [id](const haptics::HapticAssembly& a) { return a.Id() == id; });
+  const bool isAssembly = assembly != assemblies.end();
+  if (isAssembly)
+  {
+    assembly->RemoveFrom(this->Internal->Surfaces);
+    assemblies.erase(assembly);
+  }
+  const bool isPart = this->GetSurfaceAssembly(id) != nullptr; // it would come back
+  const bool removed = isAssembly || (!isPart && this->Internal->Surfaces.Remove(id));
   if (removed)
   {
     this->Modified();
@@ -72,8 +97,21 @@ bool vtkHapticScene::RemoveSurface(vtkActor* actor)
   return surface && this->RemoveSurface(surface->Id());
 }
 
+bool vtkHapticScene::RemoveSurface(vtkAssembly* assembly)
+{
+  for (const haptics::HapticAssembly& known : this->Internal->Assemblies)
+  {
+    if (assembly && known.Source() == assembly)
+    {
+      return this->RemoveSurface(known.Id());
+    }
+  }
+  return false;
+}
+
 void vtkHapticScene::RemoveAllSurfaces()
 {
+  this->Internal->Assemblies.clear();
   this->Internal->Surfaces.Clear();
   this->Modified();
 }
@@ -88,8 +126,27 @@ int vtkHapticScene::GetSurfaceId(int i)
   return i >= 0 && i < this->GetNumberOfSurfaces() ? this->Internal->Surfaces.All()[i]->Id() : -1;
 }
 
+vtkAssembly* vtkHapticScene::GetSurfaceAssembly(int id)
+{
+  for (const haptics::HapticAssembly& assembly : this->Internal->Assemblies)
+  {
+    if (assembly.Id() == id || assembly.FindActor(id))
+    {
+      return assembly.Source();
+    }
+  }
+  return nullptr;
+}
+
 vtkActor* vtkHapticScene::GetSurfaceActor(int id)
 {
+  for (const haptics::HapticAssembly& assembly : this->Internal->Assemblies)
+  {
+    if (vtkActor* actor = assembly.FindActor(id))
+    {
+      return actor;
+    }
+  }
   const haptics::HapticSurface* surface = this->Internal->Surfaces.Find(id);
   return surface ? surface->Actor() : nullptr;
 }
@@ -102,69 +159,15 @@ vtkGodObjectFilter* vtkHapticScene::GetSurfaceFilter(int id)
 
 bool vtkHapticScene::IsSurfaceTouchable(int id)
 {
+  for (const haptics::HapticAssembly& assembly : this->Internal->Assemblies)
+  {
+    if (assembly.Id() == id)
+    {
+      return assembly.IsTouchable(this->Internal->Surfaces);
+    }
+  }
   const haptics::HapticSurface* surface = this->Internal->Surfaces.Find(id);
   return surface && surface->Touched();
-}
-
-bool vtkHapticScene::SetWorkspaceTransform(vtkMatrix4x4* deviceToWorld)
-{
-  if (!deviceToWorld)
-  {
-    this->Fail("There is no matrix to take as the workspace transform. Give one.");
-    return false;
-  }
-  std::string error;
-  if (!haptics::WorkspaceTransform().SetMatrix(deviceToWorld->GetData(), error))
-  {
-    this->Fail(error + " The last one stays.");
-    return false;
-  }
-  this->Servo->SetWorkspaceTransform(deviceToWorld);
-  this->Workspace->DeepCopy(deviceToWorld);
-  this->Modified();
-  return true;
-}
-
-vtkMatrix4x4* vtkHapticScene::GetWorkspaceTransform()
-{
-  return this->Workspace;
-}
-
-bool vtkHapticScene::FitWorkspace(vtkCamera* camera)
-{
-  this->PullSurfaces();
-  vtkBoundingBox box;
-  for (const auto& surface : this->Internal->Surfaces.All())
-  {
-    surface->AddBounds(box);
-  }
-  if (!box.IsValid())
-  {
-    this->Fail(
-      "The workspace fits nothing: the scene has no surface that can be touched. Add one.");
-    return false;
-  }
-  double bounds[6];
-  box.GetBounds(bounds);
-  return this->FitWorkspace(bounds, camera);
-}
-
-bool vtkHapticScene::FitWorkspace(const double bounds[6], vtkCamera* camera)
-{
-  vtkHapticDevice* device = this->GetDevice();
-  if (!device)
-  {
-    this->Fail("The workspace cannot be fitted without a device. Call SetDevice() first.");
-    return false;
-  }
-  vtkNew<vtkMatrix4x4> fitted;
-  std::string error;
-  if (!haptics::FitWorkspace(device->GetWorkspaceBounds(), bounds, camera, fitted, error))
-  {
-    this->Fail("The workspace cannot be fitted: " + error + ".");
-    return false;
-  }
-  return this->SetWorkspaceTransform(fitted);
 }
 
 void vtkHapticScene::SetBackgroundBuilding(bool background)
@@ -229,6 +232,10 @@ bool vtkHapticScene::PullSurfaces()
   settings.Worker = this->Internal->BackgroundBuilding ? &this->Internal->Worker : nullptr;
   std::vector<std::string> errors;
   haptics::SurfaceSet& surfaces = this->Internal->Surfaces;
+  for (haptics::HapticAssembly& assembly : this->Internal->Assemblies)
+  {
+    assembly.Pull(surfaces);
+  }
   const bool clutchMoved = std::exchange(this->Internal->ClutchMoved, false);
   const bool changed = surfaces.Pull(settings, errors) || clutchMoved;
   if (changed)

@@ -33,7 +33,7 @@ constexpr const char* KeysHelp = "drag         turn the camera (Shift: pan, Ctrl
                                  "b            trail\n"
                                  "d   z        drop a landmark, take the last one away\n"
                                  "c            clutch: let go, and take hold again\n"
-                                 "+   -        the hand goes farther, less far\n"
+                                 "+   -   0    the hand goes farther, less far, as at first\n"
                                  "o            hand occluded or seen through the surface\n"
                                  "t   g        touched triangles, colours of the force\n"
                                  "r   f        reset the camera, fly to the cursor\n"
@@ -294,7 +294,8 @@ void vtkInteractorStyleHaptic::OnChar()
       }
       else
       {
-        this->Scene->Engage();
+        vtkRenderer* renderer = this->FindRenderer();
+        this->Scene->EngageInView(renderer ? renderer->GetActiveCamera() : nullptr);
       }
       break;
     case '?':
@@ -335,6 +336,9 @@ void vtkInteractorStyleHaptic::OnChar()
     case '+':
     case '-':
       this->Scene->ScaleWorkspace(this->Interactor->GetKeyCode() == '+' ? 1.25 : 0.8);
+      break;
+    case '0':
+      this->Scene->ResetWorkspace();
       break;
     case 'o':
     case 'O':

@@ -7,12 +7,14 @@
  * rendered while nothing moves. The scene does the work: this class only calls it.
  *
  * More keys:
- * - h: engage the haptic scene, or release it
+ * - h: engage the haptic scene, or release it; the first time the device's workspace is fitted to
+ *   the view, unless the scene has one already
  * - v: map the device's workspace to the surfaces as the camera sees them
  * - b: show or hide the trail behind the god-object
  * - d, z: drop a landmark, take the last one away
  * - c: the clutch
  * - +, -: scale the workspace about the hand
+ * - 0: undo what scaling and clutching have done to the workspace
  * - o: see the hand through the surface or not
  * - t: highlight the triangles touched
  * - g: colour the force by its strength, with a legend

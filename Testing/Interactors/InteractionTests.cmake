@@ -5,6 +5,7 @@ haptics_add_gtest(TestHapticScene
   TestBackgroundBuilding.cxx
   TestHapticScene.cxx
   TestHapticSceneActors.cxx
+  TestHapticSceneAssemblies.cxx
   TestHapticSceneWorkspace.cxx
   TestSceneEvents.cxx
   LIBRARIES Haptics::Devices Haptics::Filters Haptics::Interactors VTK::FiltersSources
@@ -12,6 +13,11 @@ haptics_add_gtest(TestHapticScene
 haptics_add_gtest(TestInteractorStyleHaptic
   TestInteractorStyleHaptic.cxx
   TestMouseHapticDevice.cxx
+  TestTrail.cxx
+  LIBRARIES Haptics::Devices Haptics::Interactors VTK::FiltersSources VTK::RenderingFreeType
+            VTK::RenderingOpenGL2 VTK::RenderingUI)
+haptics_add_gtest(TestInteractorStyleTimer
+  TestInteractorStyleTimer.cxx
   LIBRARIES Haptics::Devices Haptics::Interactors VTK::FiltersSources VTK::RenderingFreeType
             VTK::RenderingOpenGL2 VTK::RenderingUI)
 

@@ -1,5 +1,6 @@
 // The hand presses into the corner of a room: floor and both walls hold the god-object there, each
-// with a highlighted triangle, and the force points out of the corner.
+// with a highlighted triangle, and the force points out of the corner. Seen to fail when only one
+// of the triangles was given, with the god-object drawn at the HIP, and without triangles or arrow.
 #include "ImageTestTools.h"
 
 #include "vtkAppendPolyData.h"

@@ -1,5 +1,6 @@
 // The hand slides over a cube's top and on past its edge: the trail bends sharply over the edge and
-// the god-object is held by the side that faces right.
+// the god-object is held by the side that faces right. Seen to fail without the trail, without the
+// arrow, and with the god-object drawn at the HIP.
 #include "ImageTestTools.h"
 
 #include "vtkCubeSource.h"

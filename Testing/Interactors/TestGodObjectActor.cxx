@@ -1,5 +1,6 @@
 // The hand slides over a bump in virtual time: surface, god-object, HIP below it, spring, force
-// arrow and trail must be where the baseline has them.
+// arrow and trail must be where the baseline has them. Seen to fail without the arrow, without the trail, and
+// with the god-object drawn at the HIP.
 #include "ImageTestTools.h"
 
 #include "vtkHapticScene.h"

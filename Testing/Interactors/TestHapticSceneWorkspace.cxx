@@ -108,3 +108,57 @@ TEST(HapticSceneWorkspace, FittingNothingIsAnError)
   EXPECT_FALSE(hand.Scene->FitWorkspace(point));
   EXPECT_EQ(errors.Count, 2);
 }
+
+TEST(HapticSceneWorkspace, IsFittedToTheViewWhenItIsEngagedUnlessItWasChosen)
+{
+  vtkNew<vtkCamera> camera; // looks down on the table
+  for (const bool chosen : { false, true })
+  {
+    LedHand hand;
+    hand.Device->SetWorkspaceBounds(-0.05, 0.05, -0.05, 0.05, -0.05, 0.05);
+    hand.Scene->AddSurface(MakeTable(0.0));
+    vtkNew<vtkMatrix4x4> own;
+    own->SetElement(0, 3, 0.01);
+    if (chosen)
+    {
+      ASSERT_TRUE(hand.Scene->SetWorkspaceTransform(own));
+    }
+    ASSERT_TRUE(hand.Scene->EngageInView(camera));
+    vtkMatrix4x4* matrix = hand.Scene->GetWorkspaceTransform();
+    EXPECT_NEAR(matrix->GetElement(0, 0), chosen ? 1.0 : 2.0, 1e-6) << "0.2 m, float32, from 0.1 m";
+    EXPECT_EQ(matrix->GetElement(0, 3), chosen ? 0.01 : 0.0);
+    hand.Scene->Release();
+  }
+}
+
+TEST(HapticSceneWorkspace, EngagesInAViewWithNothingToTouchYet)
+{
+  LedHand hand;
+  vtkNew<vtkCamera> camera;
+  EventCounter errors(hand.Scene, vtkCommand::ErrorEvent);
+  EXPECT_TRUE(hand.Scene->EngageInView(camera));
+  EXPECT_EQ(errors.Count, 0);
+  EXPECT_TRUE(hand.Scene->GetWorkspaceTransform()->IsIdentity());
+}
+
+TEST(HapticSceneWorkspace, ResetUndoesScalingAndClutching)
+{
+  LedHand hand;
+  hand.Scene->AddSurface(MakeTable(0.0));
+  vtkNew<vtkMatrix4x4> home;
+  home->SetElement(2, 3, 0.01);
+  ASSERT_TRUE(hand.Scene->SetWorkspaceTransform(home));
+  hand.MoveTo(0.01);
+  ASSERT_TRUE(hand.Scene->ScaleWorkspace(3.0));
+  hand.Scene->SetClutched(true);
+  hand.MoveTo(0.05);
+  hand.Scene->SetClutched(false);
+  hand.Scene->SetClutched(true);
+  ASSERT_NE(hand.Scene->GetWorkspaceTransform()->GetElement(2, 3), 0.01);
+  hand.Scene->ResetWorkspace();
+  EXPECT_FALSE(hand.Scene->GetClutched());
+  for (int i = 0; i < 16; ++i)
+  {
+    EXPECT_EQ(hand.Scene->GetWorkspaceTransform()->GetData()[i], home->GetData()[i]) << i;
+  }
+}

@@ -6,8 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
-
 TEST(InteractorStyleHaptic, RendersOnlyWhenSomethingHasChanged)
 {
   Window window;
@@ -23,31 +21,6 @@ TEST(InteractorStyleHaptic, RendersOnlyWhenSomethingHasChanged)
   EXPECT_EQ(renders.Count, 1);
   window.Timer();
   EXPECT_EQ(renders.Count, 1);
-}
-
-TEST(InteractorStyleHaptic, HasOneTimerThatRunsAndDisturbsNobodyElse)
-{
-  Window window;
-  EventCounter others(window.Interactor, vtkCommand::TimerEvent);
-  window.Table->SetPosition(0.0, 0.0, 0.001);
-  const vtkIdType before = window.Style->GetNumberOfRenders();
-  // VTK 9.1's ProcessEvents() fires no timers; the event loop does in every version. It ends at
-  // each render, the window's own too, or when the guard's time is up.
-  vtkNew<vtkCallbackCommand> stop;
-  stop->SetClientData(window.Interactor);
-  stop->SetCallback([](vtkObject*, unsigned long, void* interactor, void*)
-    { static_cast<vtkRenderWindowInteractor*>(interactor)->TerminateApp(); });
-  window.RenderWindow->AddObserver(vtkCommand::EndEvent, stop);
-  window.Interactor->AddObserver(vtkCommand::TimerEvent, stop);
-  window.Interactor->CreateOneShotTimer(10000);
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
-  while (
-    window.Style->GetNumberOfRenders() == before && std::chrono::steady_clock::now() < deadline)
-  {
-    window.Interactor->Start();
-  }
-  EXPECT_EQ(window.Style->GetNumberOfRenders(), before + 1) << "the timer has not come";
-  EXPECT_EQ(others.Count, 0) << "the trackball style would take the timer for its own";
 }
 
 TEST(InteractorStyleHaptic, TheCameraTurnsAsInTheTrackballStyle)
@@ -85,9 +58,27 @@ TEST(InteractorStyleHaptic, KeysEngageReleaseAndShowTheTrail)
   EXPECT_FALSE(window.Hand.Scene->IsEngaged());
   window.Press('b');
   EXPECT_TRUE(window.Hand.Scene->GetGodObjectActor()->GetShowTrail());
+}
+
+TEST(InteractorStyleHaptic, KeysFitScaleAndResetTheWorkspace)
+{
+  Window window;
+  const auto scale = [&window]()
+  { return window.Hand.Scene->GetWorkspaceTransform()->GetElement(0, 0); };
+  window.Press('h');
+  const double fitted = scale();
+  EXPECT_NE(fitted, 1.0) << "fitted to the table when it is first engaged";
+  window.Press('+');
+  EXPECT_NEAR(scale(), 1.25 * fitted, 1e-9);
+  window.Press('0');
+  EXPECT_EQ(scale(), fitted);
+  window.Press('h');
+  vtkNew<vtkMatrix4x4> own;
+  ASSERT_TRUE(window.Hand.Scene->SetWorkspaceTransform(own));
+  window.Press('h');
+  EXPECT_EQ(scale(), 1.0) << "the scene's own choice is kept";
   window.Press('v');
-  EXPECT_NE(window.Hand.Scene->GetWorkspaceTransform()->GetElement(0, 0), 1.0)
-    << "fitted to the table as the camera sees it";
+  EXPECT_EQ(scale(), fitted) << "as the camera sees it";
 }
 
 TEST(InteractorStyleHaptic, TheHandIsWithinTheClippingRange)

@@ -1,6 +1,7 @@
 // A ball is stroked from left to right; two landmarks, the trail, the touched triangle, the force
 // coloured by its strength with its legend; the HIP is occluded by the ball, not seen through it.
-// Seen to fail when the landmarks' part was never visible.
+// Seen to fail without the landmarks, without the trail, without the triangle, without the legend,
+// with the force not coloured, and with the HIP seen through the ball.
 #include "ImageTestTools.h"
 
 #include "vtkHapticScene.h"
@@ -17,7 +18,7 @@ int TestMarks(int argc, char* argv[])
   vtkNew<vtkHapticScene> scene;
   scene->AddSurface(ball.Actor);
   scene->SetDevice(device);
-  scene->SetStiffness(150.0);
+  scene->SetStiffness(210.0);
   vtkGodObjectActor* hand = scene->GetGodObjectActor();
   hand->ShowTrailOn();
   hand->ShowActiveTrianglesOn();

@@ -1,5 +1,6 @@
 // The mouse strokes a sphere with the space bar held, in virtual time: hand under the cursor,
-// arrow, trail, and the bar and number of the force. Seen to fail when the bar was always empty.
+// arrow, trail, and the bar and number of the force. Seen to fail when the bar was always empty,
+// without the read-out, without the trail and without the arrow.
 #include "ImageTestTools.h"
 
 #include "vtkCommand.h"

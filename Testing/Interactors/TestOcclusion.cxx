@@ -1,5 +1,5 @@
 // Two balls, each touched on its far side. Left: god-object, HIP and spring are seen through the
-// ball. Right (SeeThrough off): the ball hides them, and only the tip of the arrow looks over it.
+// ball. Right (SeeThrough off): the ball hides them, and only the tip of the arrow looks over it. Seen to fail when both were seen through, and when neither was.
 #include "ImageTestTools.h"
 
 int TestOcclusion(int argc, char* argv[])

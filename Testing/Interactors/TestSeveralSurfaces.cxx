@@ -1,5 +1,6 @@
 // A ball that its actor's matrix has put on a table: the hand strokes the table, comes to the ball
-// and is held in the crease by both, each surface with its highlighted triangle.
+// and is held in the crease by both, each surface with its highlighted triangle. Seen to fail with the actor's matrix ignored, without the HIP, and with
+// the god-object drawn at the HIP.
 #include "ImageTestTools.h"
 
 #include "vtkPlaneSource.h"

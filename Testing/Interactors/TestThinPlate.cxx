@@ -1,5 +1,6 @@
 // A plate 0.5 mm thick, pressed 25 mm deep: the god-object stays on the face where the hand came
-// in, while the HIP is seen far below the other one.
+// in, while the HIP is seen far below the other one. Seen to fail without the spring, without the HIP, and with the god-object
+// drawn at the HIP.
 #include "ImageTestTools.h"
 
 #include "vtkCubeSource.h"

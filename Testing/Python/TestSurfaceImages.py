@@ -4,6 +4,9 @@ A hand comes from the camera down to the surface and strokes it along a line acr
 millimetres (of the device) deep: god-object, HIP, spring, arrow and trail have to be where the
 baseline has them, and the values' colours where there are values.
 
+Seen to fail with the god-object drawn at the HIP, without the trail, without the arrow and, where
+there are values, without their colours.
+
 usage: TestSurfaceImages.py NAME SURFACES_FOLDER BASELINE OUTPUT_FOLDER
 """
 

@@ -1,5 +1,7 @@
 """A saddle touched from Python in virtual time looks as in the baseline.
 
+Seen to fail with the god-object drawn at the HIP, without the trail and without the arrow.
+
 usage: TestTouchImage.py BASELINE OUTPUT_FOLDER
 """
 

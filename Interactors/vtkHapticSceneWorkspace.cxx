@@ -1,0 +1,145 @@
+// How the device's workspace lies over what a vtkHapticScene touches.
+#include "vtkHapticScene.h"
+
+#include "HapticSceneInternals.h"
+#include "WorkspaceFit.h"
+#include "WorkspaceTransform.h"
+#include "vtkBoundingBox.h"
+#include "vtkCamera.h"
+#include "vtkHapticDevice.h"
+#include "vtkHapticServo.h"
+#include "vtkMatrix4x4.h"
+
+#include <algorithm>
+#include <cmath>
+
+bool vtkHapticScene::SetWorkspaceTransform(vtkMatrix4x4* deviceToWorld)
+{
+  if (!deviceToWorld)
+  {
+    this->Fail("There is no matrix to take as the workspace transform. Give one.");
+    return false;
+  }
+  if (!this->MoveWorkspace(deviceToWorld))
+  {
+    return false;
+  }
+  std::copy_n(deviceToWorld->GetData(), 16, this->Internal->HomeWorkspace.begin());
+  this->Internal->WorkspaceChosen = true;
+  return true;
+}
+
+bool vtkHapticScene::MoveWorkspace(vtkMatrix4x4* deviceToWorld)
+{
+  std::string error;
+  if (!haptics::WorkspaceTransform().SetMatrix(deviceToWorld->GetData(), error))
+  {
+    this->Fail(error + " The last one stays.");
+    return false;
+  }
+  this->Servo->SetWorkspaceTransform(deviceToWorld);
+  this->Workspace->DeepCopy(deviceToWorld);
+  this->Modified();
+  return true;
+}
+
+vtkMatrix4x4* vtkHapticScene::GetWorkspaceTransform()
+{
+  return this->Workspace;
+}
+
+void vtkHapticScene::ResetWorkspace()
+{
+  this->SetClutched(false);
+  vtkNew<vtkMatrix4x4> home;
+  if (this->Internal->WorkspaceChosen)
+  {
+    home->DeepCopy(this->Internal->HomeWorkspace.data());
+  }
+  this->MoveWorkspace(home);
+}
+
+bool vtkHapticScene::FitWorkspace(vtkCamera* camera)
+{
+  this->PullSurfaces();
+  vtkBoundingBox box;
+  for (const auto& surface : this->Internal->Surfaces.All())
+  {
+    surface->AddBounds(box);
+  }
+  if (!box.IsValid())
+  {
+    this->Fail(
+      "The workspace fits nothing: the scene has no surface that can be touched. Add one.");
+    return false;
+  }
+  double bounds[6];
+  box.GetBounds(bounds);
+  return this->FitWorkspace(bounds, camera);
+}
+
+bool vtkHapticScene::FitWorkspace(const double bounds[6], vtkCamera* camera)
+{
+  vtkHapticDevice* device = this->GetDevice();
+  if (!device)
+  {
+    this->Fail("The workspace cannot be fitted without a device. Call SetDevice() first.");
+    return false;
+  }
+  vtkNew<vtkMatrix4x4> fitted;
+  std::string error;
+  if (!haptics::FitWorkspace(device->GetWorkspaceBounds(), bounds, camera, fitted, error))
+  {
+    this->Fail("The workspace cannot be fitted: " + error + ".");
+    return false;
+  }
+  return this->SetWorkspaceTransform(fitted);
+}
+
+bool vtkHapticScene::EngageInView(vtkCamera* camera)
+{
+  if (!this->IsEngaged() && this->GetDevice() && !this->Internal->WorkspaceChosen)
+  {
+    this->PullSurfaces();
+    const auto& surfaces = this->Internal->Surfaces.All();
+    const bool any = std::any_of(surfaces.begin(), surfaces.end(),
+      [](const auto& surface)
+      {
+        vtkBoundingBox box;
+        surface->AddBounds(box);
+        return box.IsValid() && box.GetMaxLength() > 0.0;
+      });
+    if (any && !this->FitWorkspace(camera))
+    {
+      return false;
+    }
+  }
+  return this->Engage();
+}
+
+bool vtkHapticScene::ScaleWorkspace(double factor)
+{
+  if (!std::isfinite(factor) || !(factor > 0.0))
+  {
+    this->Fail("The workspace cannot be scaled by " + std::to_string(factor) +
+      ". Give a finite factor > 0.");
+    return false;
+  }
+  vtkNew<vtkMatrix4x4> scaled;
+  scaled->DeepCopy(this->Workspace);
+  // The device's place goes to where the god-object is, so that the hand does not jump through the
+  // surface that holds it.
+  double device[4] = { 0.0, 0.0, 0.0, 1.0 };
+  this->Servo->GetDevicePosition(device);
+  for (int i = 0; i < 3; ++i)
+  {
+    double turned = 0.0;
+    for (int j = 0; j < 3; ++j)
+    {
+      scaled->SetElement(i, j, factor * scaled->GetElement(i, j));
+      turned += scaled->GetElement(i, j) * device[j];
+    }
+    scaled->SetElement(i, 3, this->GodObject[i] - turned);
+  }
+  return this->MoveWorkspace(scaled);
+}
