@@ -36,6 +36,10 @@ vtkSmartPointer<vtkPolyData> Gather(vtkDataObject* data)
       append->AddInputData(block);
     }
   }
+  if (append->GetNumberOfInputConnections(0) == 0)
+  {
+    return vtkSmartPointer<vtkPolyData>::New(); // this process holds no data
+  }
   append->Update();
   return append->GetOutput();
 }

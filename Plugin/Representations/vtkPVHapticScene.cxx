@@ -1,114 +1,56 @@
 #include "vtkPVHapticScene.h"
 
-#include "HapticDeviceChoice.h"
-#include "vtkActor.h"
-#include "vtkCamera.h"
-#include "vtkCellData.h"
+#include "PVHapticSceneInternals.h"
 #include "vtkCommand.h"
-#include "vtkCompositeRepresentation.h"
-#include "vtkGodObjectActor.h"
-#include "vtkGodObjectFilter.h"
-#include "vtkHapticLandmarks.h"
 #include "vtkHapticOverlay.h"
-#include "vtkHapticProbe.h"
-#include "vtkHapticScene.h"
 #include "vtkHapticServo.h"
-#include "vtkHapticSurfaceRepresentation.h"
-#include "vtkMath.h"
-#include "vtkMatrix4x4.h"
+#include "vtkMapper.h"
 #include "vtkMouseHapticDevice.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkPVRenderView.h"
-#include "vtkPointData.h"
+#include "vtkPolyData.h"
 #include "vtkRenderWindow.h"
-#include "vtkRenderer.h"
-#include "vtkSmartPointer.h"
-#include "vtkStringArray.h"
-#include "vtkWeakPointer.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <set>
-#include <sstream>
 #include <vector>
 
 vtkStandardNewMacro(vtkPVHapticScene);
 
-class vtkPVHapticScene::Internals
+namespace
 {
-public:
-  struct Surface
+/// How far apart two processes may place the same point [world unit]: some units of the last place
+/// of the precision that points are stored in.
+double SeamWidth(vtkDataSet* data)
+{
+  auto* surface = vtkPolyData::SafeDownCast(data);
+  if (!surface || !surface->GetPoints())
   {
-    vtkWeakPointer<vtkObject> Representation;
-    vtkSmartPointer<vtkActor> Actor; // null while it cannot be touched
-    int Id = -1;                     // in the scene
-  };
-
-  vtkNew<vtkHapticScene> Scene;
-  vtkWeakPointer<vtkPVRenderView> View;
-  vtkWeakPointer<vtkRenderer> Renderer; // that shows the hand
-  vtkWeakPointer<vtkRenderer> OverlayRenderer;
-  std::vector<unsigned long> ViewObservers;
-  std::vector<Surface> Surfaces;
-  std::string DeviceName = "mouse";
-  haptics::DeviceChoice Choice;
-  bool Fitted = false;
-  bool Wanted = false; // engaged, or about to be when the device is ready
-  int Side = vtkGodObjectFilter::AUTOMATIC_SIDE;
-  double MaximumForce = 3.3;
-  std::string Message;
-  std::string State;
-  std::string ShownState;
-  vtkNew<vtkStringArray> Probed;
-
-  static vtkHapticSurfaceRepresentation* Active(vtkObject* representation)
-  {
-    if (auto* composite = vtkCompositeRepresentation::SafeDownCast(representation))
-    {
-      representation = composite->GetActiveRepresentation();
-    }
-    return vtkHapticSurfaceRepresentation::SafeDownCast(representation);
+    return 0.0;
   }
-
-  void Show(vtkRenderer* renderer)
-  {
-    vtkGodObjectActor* hand = this->Scene->GetGodObjectActor();
-    if (renderer != this->Renderer)
-    {
-      if (this->Renderer)
-      {
-        this->Renderer->RemoveViewProp(hand);
-      }
-      if (renderer)
-      {
-        renderer->AddViewProp(hand);
-      }
-      this->Renderer = renderer;
-    }
-  }
-
-  /// Where the picture is drawn on a server only the non-composited renderer draws here.
-  void OnRender()
-  {
-    if (this->View)
-    {
-      const bool remote = this->View->GetUsedLODForLastRender()
-        ? this->View->GetUseDistributedRenderingForLODRender()
-        : this->View->GetUseDistributedRenderingForRender();
-      this->Show(remote ? this->View->GetNonCompositedRenderer() : this->View->GetRenderer());
-      this->Scene->GetGodObjectActor()->IncludeInClippingRange(this->Renderer);
-    }
-  }
-};
+  double bounds[6];
+  surface->GetBounds(bounds);
+  const double largest = *std::max_element(
+    bounds, bounds + 6, [](double a, double b) { return std::abs(a) < std::abs(b); });
+  const bool isFloat = surface->GetPoints()->GetDataType() == VTK_FLOAT;
+  return 4.0 * std::abs(largest) *
+    (isFloat ? std::numeric_limits<float>::epsilon() : std::numeric_limits<double>::epsilon());
+}
+}
 
 vtkPVHapticScene::vtkPVHapticScene()
   : Internal(std::make_unique<Internals>())
 {
   this->Internal->Scene->GetServo()->SetMaximumForce(this->Internal->MaximumForce);
+  this->Internal->Scene->BackgroundBuildingOn();
+  this->Internal->Scene->AddObserver(
+    vtkHapticScene::SurfaceErrorEvent, this, &vtkPVHapticScene::OnSurfaceError);
 }
 
 vtkPVHapticScene::~vtkPVHapticScene()
 {
+  this->SetEngaged(false);
   this->SetView(nullptr);
 }
 
@@ -143,7 +85,14 @@ void vtkPVHapticScene::SetView(vtkObject* object)
   {
     return;
   }
-  this->SetEngaged(false);
+  if (view)
+  {
+    this->SetEngaged(false);
+  }
+  else
+  {
+    this->ReleaseBecause("The view was closed");
+  }
   if (self.View)
   {
     self.Show(nullptr);
@@ -160,6 +109,7 @@ void vtkPVHapticScene::SetView(vtkObject* object)
   {
     mouse->SetInteractor(view ? view->GetInteractor() : nullptr);
   }
+  self.Fitted = false; // another view looks elsewhere
   if (view)
   {
     self.OverlayRenderer = view->GetNonCompositedRenderer();
@@ -175,14 +125,9 @@ void vtkPVHapticScene::SetView(vtkObject* object)
 void vtkPVHapticScene::OnViewDeleted()
 {
   // Its window and renderers go with it, and our props in them.
-  Internals& self = *this->Internal;
-  self.View = nullptr;
-  self.ViewObservers.clear();
-  if (self.Wanted)
-  {
-    this->SetEngaged(false);
-    this->Fail("The view was closed; the device is released.");
-  }
+  this->Internal->View = nullptr;
+  this->Internal->ViewObservers.clear();
+  this->ReleaseBecause("The view was closed");
 }
 
 //--- surfaces -------------------------------------------------------------------------------------
@@ -211,6 +156,9 @@ void vtkPVHapticScene::RemoveAllSurfaces()
 void vtkPVHapticScene::SyncSurfaces()
 {
   Internals& self = *this->Internal;
+  self.Surfaces.erase(std::remove_if(self.Surfaces.begin(), self.Surfaces.end(),
+                        [](const Internals::Surface& s) { return !s.Representation; }),
+    self.Surfaces.end());
   std::set<vtkActor*> wanted;
   for (Internals::Surface& surface : self.Surfaces)
   {
@@ -221,7 +169,11 @@ void vtkPVHapticScene::SyncSurfaces()
     {
       wanted.insert(surface.Actor);
       surface.Id = self.Scene->AddSurface(surface.Actor);
-      self.Scene->GetSurfaceFilter(surface.Id)->SetSide(self.Side);
+      vtkGodObjectFilter* filter = self.Scene->GetSurfaceFilter(surface.Id);
+      filter->SetSide(self.Side);
+      filter->SetMergeToleranceIsAbsolute(true);
+      filter->SetMergeTolerance(
+        self.InPieces ? SeamWidth(surface.Actor->GetMapper()->GetInputAsDataSet()) : 0.0);
     }
   }
   for (int i = self.Scene->GetNumberOfSurfaces() - 1; i >= 0; --i)
@@ -242,6 +194,16 @@ int vtkPVHapticScene::GetNumberOfTouchableSurfaces()
     touchable += this->Internal->Scene->IsSurfaceTouchable(surface.Id) ? 1 : 0;
   }
   return touchable;
+}
+
+void vtkPVHapticScene::OnSurfaceError()
+{
+  this->Internal->Message = this->Internal->Scene->GetErrorMessage(); // it has reported it itself
+}
+
+void vtkPVHapticScene::SetInPieces(bool inPieces)
+{
+  this->Internal->InPieces = inPieces;
 }
 
 void vtkPVHapticScene::SetSide(int side)
@@ -267,6 +229,7 @@ void vtkPVHapticScene::SetDeviceName(const char* name)
     this->Internal->Scene->SetDevice(nullptr);
     this->Internal->Choice = haptics::DeviceChoice();
     this->Internal->DeviceName = wanted;
+    this->Internal->Fitted = false; // another device reaches elsewhere
     this->Internal->Message.clear();
     this->Modified();
   }
@@ -292,14 +255,11 @@ bool vtkPVHapticScene::ChooseDevice()
     return false;
   }
   self.Scene->SetDevice(self.Choice.Device());
+  self.PathIsKnown = false;
   if (auto* mouse = vtkMouseHapticDevice::SafeDownCast(self.Choice.Device()))
   {
     mouse->SetScene(self.Scene);
     mouse->SetInteractor(self.View ? self.View->GetInteractor() : nullptr);
-  }
-  if (self.Choice.WorldPath() && self.Fitted)
-  {
-    self.Choice.FollowPath(self.Scene->GetWorkspaceTransform());
   }
   return true;
 }
@@ -317,7 +277,25 @@ bool vtkPVHapticScene::Prepare()
     this->Fail("There is nothing to touch. Select a source, show it as Haptic Surface.");
     return false;
   }
-  return this->ChooseDevice() && (self.Fitted || this->Fit());
+  return this->ChooseDevice() && (self.Fitted || this->Fit()) && this->ChoosePath();
+}
+
+bool vtkPVHapticScene::ChoosePath()
+{
+  Internals& self = *this->Internal;
+  if (self.PathIsKnown)
+  {
+    return true;
+  }
+  if (!self.Choice.MakeStroke(self.Scene))
+  {
+    this->Fail("The simulated hand finds no surface to stroke in the middle of the view. Turn the "
+               "camera to one.");
+    return false;
+  }
+  self.Choice.FollowPath(self.Scene->GetWorkspaceTransform());
+  self.PathIsKnown = true;
+  return true;
 }
 
 void vtkPVHapticScene::SetEngaged(bool engaged)
@@ -335,6 +313,16 @@ void vtkPVHapticScene::SetEngaged(bool engaged)
   }
   self.Message.clear();
   this->SyncSurfaces();
+  if (!this->ChooseDevice())
+  {
+    return;
+  }
+  self.Scene->Update();
+  if (self.Choice.Strokes() && self.Scene->IsBuilding())
+  {
+    self.Wanted = true; // a stroke follows surfaces that are there; Update() engages then
+    return;
+  }
   if (!this->Prepare())
   {
     return;
@@ -345,7 +333,16 @@ void vtkPVHapticScene::SetEngaged(bool engaged)
     const int state = self.Scene->GetDevice()->GetState();
     self.Wanted = state != vtkHapticDevice::Closed && state != vtkHapticDevice::Faulted &&
       state != vtkHapticDevice::Ready;
-    self.Message = self.Scene->GetErrorMessage();
+    self.Message = self.Wanted ? "" : self.Scene->GetErrorMessage();
+  }
+}
+
+void vtkPVHapticScene::ReleaseBecause(const std::string& reason)
+{
+  if (this->Internal->Wanted || this->Internal->Scene->IsEngaged())
+  {
+    this->SetEngaged(false);
+    this->Fail(reason + "; the device is released.");
   }
 }
 
@@ -382,100 +379,16 @@ double vtkPVHapticScene::GetMaximumForce()
   return this->Internal->MaximumForce;
 }
 
-//--- workspace ------------------------------------------------------------------------------------
-
-void vtkPVHapticScene::SetWorkspaceTransform(const double matrix[16])
-{
-  vtkNew<vtkMatrix4x4> transform;
-  transform->DeepCopy(matrix);
-  Internals& self = *this->Internal;
-  if (self.Scene->SetWorkspaceTransform(transform))
-  {
-    self.Fitted = true;
-    if (!self.Scene->IsEngaged())
-    {
-      self.Choice.FollowPath(transform);
-    }
-  }
-  else
-  {
-    self.Message = self.Scene->GetErrorMessage();
-  }
-}
-
-void vtkPVHapticScene::GetWorkspaceTransform(double matrix[16])
-{
-  std::copy_n(this->Internal->Scene->GetWorkspaceTransform()->GetData(), 16, matrix);
-}
-
-bool vtkPVHapticScene::Fit()
-{
-  Internals& self = *this->Internal;
-  if (!self.View)
-  {
-    this->Fail("There is no render view to fit the device's workspace to. Activate one.");
-    return false;
-  }
-  if (!this->ChooseDevice())
-  {
-    return false;
-  }
-  this->SyncSurfaces();
-  vtkCamera* camera = self.View->GetActiveCamera();
-  vtkPolyData* path = self.Choice.WorldPath();
-  double bounds[6] = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
-  if (path && !self.Choice.Strokes())
-  {
-    path->GetBounds(bounds);
-    self.Fitted = self.Scene->FitWorkspace(bounds, camera);
-  }
-  else
-  {
-    self.Fitted = self.Scene->FitWorkspace(camera);
-  }
-  if (!self.Fitted)
-  {
-    self.Message = self.Scene->GetErrorMessage();
-    return false;
-  }
-  if (!self.Scene->IsEngaged())
-  {
-    if (!self.Choice.MakeStroke(self.Scene))
-    {
-      this->Fail(
-        "The simulated hand finds no surface to stroke in the middle of the view. Turn the "
-        "camera to one.");
-      return false;
-    }
-    self.Choice.FollowPath(self.Scene->GetWorkspaceTransform());
-  }
-  return true;
-}
-
-void vtkPVHapticScene::ScaleWorkspace(double factor)
-{
-  if (!this->Internal->Scene->ScaleWorkspace(factor))
-  {
-    this->Internal->Message = this->Internal->Scene->GetErrorMessage();
-  }
-}
-
-void vtkPVHapticScene::SetClutched(bool clutched)
-{
-  this->Internal->Scene->SetClutched(clutched);
-}
-
-bool vtkPVHapticScene::GetClutched()
-{
-  return this->Internal->Scene->GetClutched();
-}
-
 //--- running --------------------------------------------------------------------------------------
 
 bool vtkPVHapticScene::Update()
 {
   Internals& self = *this->Internal;
   this->SyncSurfaces();
+  if (self.Surfaces.empty())
+  {
+    this->ReleaseBecause("What was touched is no longer there");
+  }
   const bool wasEngaged = self.Scene->IsEngaged();
   bool changed = self.Scene->Update();
   if (wasEngaged && !self.Scene->IsEngaged())
@@ -486,12 +399,8 @@ bool vtkPVHapticScene::Update()
   }
   if (self.Wanted && !self.Scene->IsEngaged())
   {
-    const int state = self.Scene->GetDevice()->GetState();
-    if (state == vtkHapticDevice::Ready || state == vtkHapticDevice::Faulted)
-    {
-      this->SetEngaged(state == vtkHapticDevice::Ready);
-      self.Message = self.Scene->GetErrorMessage();
-    }
+    this->EngageWhenReady();
+    changed = true;
   }
   // What the panel says is part of the picture.
   if (self.ShownState != this->GetState())
@@ -502,176 +411,33 @@ bool vtkPVHapticScene::Update()
   return changed;
 }
 
-void vtkPVHapticScene::Step(int ticks)
-{
-  this->Internal->Message.clear();
-  this->SyncSurfaces();
-  if (this->Prepare() && this->Internal->Scene->Step(ticks) < ticks)
-  {
-    this->Internal->Message = this->Internal->Scene->GetErrorMessage();
-  }
-}
-
-void vtkPVHapticScene::SetRecordingFileName(const char* name)
-{
-  this->Internal->Scene->GetServo()->SetRecordingFileName(name ? name : "");
-  this->Modified();
-}
-
-void vtkPVHapticScene::SetRecordTrace(bool record)
-{
-  if (record != this->GetRecordTrace())
-  {
-    record ? this->Internal->Scene->StartRecording() : this->Internal->Scene->StopRecording();
-  }
-}
-
-bool vtkPVHapticScene::GetRecordTrace()
-{
-  return this->Internal->Scene->GetRecording();
-}
-
-void vtkPVHapticScene::DropLandmark()
-{
-  if (this->Internal->Scene->DropLandmark() < 0)
-  {
-    this->Internal->Message = this->Internal->Scene->GetErrorMessage();
-  }
-}
-
-void vtkPVHapticScene::RemoveLastLandmark()
-{
-  this->Internal->Scene->GetLandmarks()->Undo();
-}
-
-void vtkPVHapticScene::ClearLandmarks()
-{
-  this->Internal->Scene->GetLandmarks()->RemoveAll();
-}
-
-int vtkPVHapticScene::GetNumberOfLandmarks()
-{
-  return this->Internal->Scene->GetLandmarks()->GetNumberOfLandmarks();
-}
-
-//--- what is told ---------------------------------------------------------------------------------
-
-const char* vtkPVHapticScene::GetState()
+void vtkPVHapticScene::EngageWhenReady()
 {
   Internals& self = *this->Internal;
-  vtkHapticScene* scene = self.Scene;
-  if (scene->IsEngaged())
+  const int state = self.Scene->GetDevice()->GetState();
+  if (state == vtkHapticDevice::Faulted)
   {
-    self.State = scene->GetClutched() ? "Engaged, clutched: nothing is touched"
-      : scene->GetTouching()          ? "Engaged, touching"
-                                      : "Engaged, in free space";
+    self.Wanted = false;
+    self.Message = self.Scene->GetDevice()->GetErrorMessage();
   }
-  else if (self.Wanted)
+  else if (!self.Scene->IsBuilding() &&
+    (state == vtkHapticDevice::Ready || state == vtkHapticDevice::Closed))
   {
-    self.State = scene->GetDevice()->GetStatusMessage();
+    self.Wanted = false;
+    this->SetEngaged(true);
   }
-  else
+}
+
+void vtkPVHapticScene::Step(int ticks)
+{
+  vtkHapticScene* scene = this->Internal->Scene;
+  this->Internal->Message.clear();
+  this->SyncSurfaces();
+  scene->BackgroundBuildingOff(); // virtual time waits for what is to be touched
+  scene->Update();
+  if (this->Prepare() && scene->Step(ticks) < ticks)
   {
-    self.State = self.Message.empty() ? "Released" : "Released: " + self.Message;
+    this->Internal->Message = scene->GetErrorMessage();
   }
-  return self.State.c_str();
-}
-
-const char* vtkPVHapticScene::GetMessage()
-{
-  return this->Internal->Message.c_str();
-}
-
-double vtkPVHapticScene::GetRate()
-{
-  return this->GetEngaged() ? this->Internal->Scene->GetServo()->GetMeasuredRate() : 0.0;
-}
-
-vtkTypeInt64 vtkPVHapticScene::GetMissedTicks()
-{
-  return this->Internal->Scene->GetServo()->GetNumberOfMissedTicks();
-}
-
-double* vtkPVHapticScene::GetForce()
-{
-  return this->Internal->Scene->GetForce();
-}
-
-double vtkPVHapticScene::GetForceMagnitude()
-{
-  return vtkMath::Norm(this->GetForce());
-}
-
-double vtkPVHapticScene::GetPenetration()
-{
-  return this->Internal->Scene->GetPenetration();
-}
-
-double* vtkPVHapticScene::GetHapticInterfacePoint()
-{
-  return this->Internal->Scene->GetHapticInterfacePoint();
-}
-
-double* vtkPVHapticScene::GetGodObject()
-{
-  return this->Internal->Scene->GetGodObject();
-}
-
-bool vtkPVHapticScene::GetTouching()
-{
-  return this->Internal->Scene->GetTouching();
-}
-
-int vtkPVHapticScene::GetTouchedRepresentation()
-{
-  const int id = this->Internal->Scene->GetTouchedSurface();
-  const std::vector<Internals::Surface>& surfaces = this->Internal->Surfaces;
-  const auto found = std::find_if(surfaces.begin(), surfaces.end(),
-    [id](const Internals::Surface& surface) { return id >= 0 && surface.Id == id; });
-  return found == surfaces.end() ? -1 : static_cast<int>(found - surfaces.begin());
-}
-
-vtkIdType vtkPVHapticScene::GetTouchedCell()
-{
-  // ParaView's extraction of the surface has kept where each face came from.
-  vtkHapticProbe* probe = this->Internal->Scene->GetProbe();
-  vtkDataArray* ids = probe->GetCellValues()->GetArray("vtkOriginalCellIds");
-  return probe->GetTouching() && ids && ids->GetNumberOfTuples() > 0
-    ? static_cast<vtkIdType>(ids->GetComponent(0, 0))
-    : this->Internal->Scene->GetTouchedCell();
-}
-
-vtkStringArray* vtkPVHapticScene::GetProbedValues()
-{
-  vtkStringArray* texts = this->Internal->Probed;
-  texts->Initialize();
-  vtkHapticProbe* probe = this->Internal->Scene->GetProbe();
-  for (vtkFieldData* values : { static_cast<vtkFieldData*>(probe->GetPointValues()),
-         static_cast<vtkFieldData*>(probe->GetCellValues()) })
-  {
-    for (int i = 0; probe->GetTouching() && i < values->GetNumberOfArrays(); ++i)
-    {
-      vtkAbstractArray* array = values->GetAbstractArray(i);
-      std::ostringstream text;
-      for (int c = 0; c < array->GetNumberOfComponents(); ++c)
-      {
-        text << (c ? ", " : "") << array->GetVariantValue(c).ToString();
-      }
-      texts->InsertNextValue(array->GetName() ? array->GetName() : "");
-      texts->InsertNextValue(text.str());
-    }
-  }
-  return texts;
-}
-
-void vtkPVHapticScene::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "View: " << this->Internal->View.Get() << "\n";
-  os << indent << "Surfaces: " << this->Internal->Surfaces.size() << "\n";
-  os << indent << "DeviceName: " << this->Internal->DeviceName << "\n";
-  os << indent << "State: " << this->GetState() << "\n";
-  os << indent << "Message: " << this->Internal->Message << "\n";
-  os << indent << "Scene:\n";
-  this->Internal->Scene->PrintSelf(os, indent.GetNextIndent());
+  scene->BackgroundBuildingOn();
 }

@@ -62,6 +62,11 @@ public:
   void AddSurface(vtkObject* representation);
   void RemoveAllSurfaces();
   ///@}
+  /**
+   * Whether the surfaces come from several processes, which may place the same point some units of
+   * the last place apart: such points are merged, so that no seam is felt. Default off.
+   */
+  void SetInPieces(bool inPieces);
   /** How many of them can be touched now. */
   int GetNumberOfTouchableSurfaces();
 
@@ -84,6 +89,8 @@ public:
   void SetEngaged(bool engaged);
   bool GetEngaged();
   ///@}
+  /** Releases an engaged scene for a reason that people are told. */
+  void ReleaseBecause(const std::string& reason);
 
   ///@{
   /** Of the surfaces in the hand [N/m], device frame. Default 500; finite and >= 0. */
@@ -105,7 +112,10 @@ public:
   ///@}
 
   ///@{
-  /** Device to world, row by row, as vtkHapticScene::SetWorkspaceTransform(). */
+  /**
+   * Device to world, row by row, as vtkHapticScene::SetWorkspaceTransform(). All zeros, the
+   * default, until it was set or fitted; set to zeros it is fitted anew when it is needed.
+   */
   void SetWorkspaceTransform(const double matrix[16]);
   void GetWorkspaceTransform(double matrix[16]);
   ///@}
@@ -127,6 +137,24 @@ public:
    * anew.
    */
   bool Update();
+  ///@{
+  /**
+   * Changed surfaces are built beside, see vtkHapticScene::SetBackgroundBuilding(): whether one is
+   * now, how far it is (0 to 1), and giving it up.
+   */
+  bool GetBuilding();
+  double GetBuildProgress();
+  void CancelBuild();
+  ///@}
+  ///@{
+  /**
+   * What the view shows beside the hand: the force as bar and number (default on), what lies at
+   * the contact (default off), where the hand went (default off).
+   */
+  void SetShowForce(bool show);
+  void SetShowReadout(bool show);
+  void SetShowTrail(bool show);
+  ///@}
   /** Runs ticks in virtual time, see vtkHapticScene::Step(). */
   void Step(int ticks);
 
@@ -179,8 +207,11 @@ private:
   void Fail(const std::string& message);
   bool Prepare();
   bool ChooseDevice();
+  bool ChoosePath();
+  void EngageWhenReady();
   void SyncSurfaces();
   void OnViewDeleted();
+  void OnSurfaceError();
 
   class Internals;
   std::unique_ptr<Internals> Internal;

@@ -1,0 +1,212 @@
+"""Touch what ParaView shows, from pvpython and from ParaView's Python shell.
+
+    from paraview.simple import *
+    from vtkhaptics.paraview import touch
+
+    hand = touch(Sphere(), Device="simulated")
+    hand.step(1500)                     # ticks of 1 ms in virtual time; hand.engage() in real time
+    print(hand.ForceMagnitude, "N at", hand.GodObject)
+
+``hand`` is the scene of the session: every property of the proxy (haptics, HapticScene) is an
+attribute of it. Its servo runs on the client, also where the data are on a server.
+"""
+
+import glob
+import os
+import time
+
+from paraview import servermanager, simple
+
+from . import vtkHapticScene  # noqa: F401  (lets the wrappers know the class)
+
+__all__ = ["HapticsError", "Scene", "load_plugin", "scene", "touch"]
+
+
+class HapticsError(Exception):
+    """What went wrong and what to do, for people."""
+
+
+def load_plugin(path=None, names=None):
+    """Loads the plugin Haptics, on the server too where there is one, unless it is loaded.
+
+    path: the plugin's file; by default the one that was built or installed with this package.
+    names: where the functions for the new filters are put, by default paraview.simple.
+    """
+    definitions = servermanager.ProxyManager().GetProxyDefinitionManager()
+    if definitions.HasDefinition("haptics", "HapticScene"):
+        return
+    path = path or _find_plugin()
+    if servermanager.ActiveConnection.IsRemote():
+        simple.LoadPlugin(path, remote=True)
+    simple.LoadPlugin(path, remote=False, ns=vars(simple) if names is None else names)
+    if not definitions.HasDefinition("haptics", "HapticScene"):
+        raise HapticsError(f"{path}: ParaView could not load this plugin. Its messages tell why.")
+
+
+def _find_plugin():
+    manager = servermanager.vtkSMProxyManager
+    version = f"paraview-{manager.GetVersionMajor()}.{manager.GetVersionMinor()}"
+    folder = os.path.dirname(os.path.abspath(__file__))
+    while folder != os.path.dirname(folder):
+        found = glob.glob(os.path.join(folder, version, "plugins", "Haptics", "Haptics.*"))
+        if found:
+            return found[0]
+        folder = os.path.dirname(folder)
+    raise HapticsError(
+        f"There is no plugin Haptics for {version} beside this package. Give load_plugin() its path."
+    )
+
+
+class Scene:
+    """A haptic scene of ParaView. The proxy's properties are its attributes."""
+
+    def __init__(self, proxy):
+        object.__setattr__(self, "proxy", proxy)
+
+    def __getattr__(self, name):
+        prop = self.proxy.SMProxy.GetProperty(name)
+        if not prop:
+            raise AttributeError(f"a haptic scene has no {name}")
+        if prop.GetInformationOnly():
+            self.proxy.SMProxy.UpdatePropertyInformation(prop)
+        return getattr(self.proxy, name)
+
+    def __setattr__(self, name, value):
+        self.set(**{name: value})
+
+    def __dir__(self):
+        return sorted(set(super().__dir__()) | set(self.proxy.ListProperties()))
+
+    def set(self, **properties):
+        """Sets properties, for example set(Stiffness=800, Device="simulated")."""
+        for name, value in properties.items():
+            if not self.proxy.SMProxy.GetProperty(name):
+                raise AttributeError(f"a haptic scene has no {name}")
+            setattr(self.proxy, name, value)
+
+    @property
+    def vtk(self):
+        """The vtkHapticScene, for events, probes, the servo's statistics."""
+        # Known to Python only once its module is there, which needs the plugin's library.
+        from . import vtkHapticsRepresentations  # noqa: F401
+
+        return self.proxy.GetClientSideObject().GetScene()
+
+    def touch(self, source=None, view=None):
+        """Shows a source (by default the active one) as Haptic Surface and adds it to the scene."""
+        source = source or simple.GetActiveSource()
+        if not source:
+            raise HapticsError("There is no source to touch. Give one, or make one active.")
+        view = view or self.View or simple.GetActiveViewOrCreate("RenderView")
+        if not view.SMProxy.IsA("vtkSMRenderViewProxy"):
+            raise HapticsError(
+                f"A view of the kind {view.GetXMLLabel()} cannot be touched. Give a render view."
+            )
+        display = simple.Show(source, view)
+        names = display.SMProxy.GetProperty("Representation")
+        if not names or "Haptic Surface" not in display.GetProperty("Representation").Available:
+            raise HapticsError(
+                f"{source.GetXMLLabel()} has no surface to touch here. Give a source of surfaces or "
+                "volumes, for example the output of Extract Surface or Contour."
+            )
+        display.SetRepresentationType("Haptic Surface")
+        if self.View != view:
+            self.set(View=view, Surfaces=[])
+        if display not in self.Surfaces:
+            self.set(Surfaces=list(self.Surfaces) + [display])
+        simple.Render(view)  # which brings the triangles to the client
+        return display
+
+    def touch_only(self, *displays):
+        """Touches these representations and nothing else."""
+        self.set(Surfaces=list(displays))
+        if self.View:
+            simple.Render(self.View)  # which brings the triangles to the client
+
+    def engage(self):
+        """Starts the servo in real time. Raises HapticsError where it cannot.
+
+        A device that takes its time to open (State tells) is engaged by an update() when it is
+        ready.
+        """
+        self.proxy.Engaged = 0  # what was asked for before may have come to an end by itself
+        self.proxy.Engaged = 1
+        while self.Building and not self.EngagedInfo:
+            time.sleep(0.005)
+            self.update()
+        if self.Message and not self.EngagedInfo:
+            raise HapticsError(self.Message)
+
+    def release(self):
+        """Stops the servo: zero force."""
+        self.proxy.Engaged = 0
+
+    def update(self):
+        """Takes in what the servo did; call it about as often as the view is rendered."""
+        self.proxy.InvokeCommand("Update")
+
+    def step(self, ticks):
+        """Runs ticks in virtual time, as fast as they come. Raises HapticsError."""
+        # Not proxy.Step = ticks, which does nothing when it is the same number again.
+        self.proxy.SMProxy.GetProperty("Step").SetElement(0, ticks)
+        self.proxy.SMProxy.UpdateProperty("Step", 1)
+        self.proxy.SMProxy.UpdateVTKObjects()
+        if self.Message:
+            raise HapticsError(self.Message)
+
+    def fit(self):
+        """Maps what the device reaches to the surfaces, as the view sees them."""
+        self.proxy.InvokeCommand("Fit")
+        if self.Message:
+            raise HapticsError(self.Message)
+
+    def drop_landmark(self):
+        """Marks where the hand touches."""
+        before = self.NumberOfLandmarks
+        self.proxy.InvokeCommand("DropLandmark")
+        if self.NumberOfLandmarks == before:
+            raise HapticsError(self.Message)
+
+    def trace(self):
+        """What was felt while RecordTrace was on, as vtkPolyData; see vtkHapticScene::GetTrace()."""
+        return self.vtk.GetTrace()
+
+    def landmarks(self):
+        """The landmarks as vtkPolyData."""
+        return self.vtk.GetLandmarks().GetOutput()
+
+    def trace_source(self, name="HapticTrace"):
+        """The trace as a new source of the pipeline."""
+        return _source(self.trace(), name)
+
+    def landmark_source(self, name="HapticLandmarks"):
+        """The landmarks as a new source of the pipeline."""
+        return _source(self.landmarks(), name)
+
+
+def _source(record, name):
+    from .vtkHapticsRepresentations import vtkHapticRecordSource
+
+    return simple.HapticRecord(
+        registrationName=name, Contents=vtkHapticRecordSource.MakeContents(record)
+    )
+
+
+def scene():
+    """The scene of this session; made if there is none yet."""
+    load_plugin()
+    manager = servermanager.ProxyManager()
+    proxy = manager.GetProxy("haptics", "HapticScene")
+    if not proxy:
+        proxy = servermanager._getPyProxy(manager.NewProxy("haptics", "HapticScene"))
+        proxy.UpdateVTKObjects()
+        manager.RegisterProxy("haptics", "HapticScene", proxy.SMProxy)
+    return Scene(servermanager._getPyProxy(proxy))
+
+
+def touch(source=None, view=None, **properties):
+    """Makes a source (by default the active one) touchable, sets properties; returns the scene."""
+    hand = scene()
+    hand.set(**properties)
+    hand.touch(source, view)
+    return hand

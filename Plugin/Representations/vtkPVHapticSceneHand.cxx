@@ -1,0 +1,157 @@
+// What the hand of a vtkPVHapticScene reaches, leaves behind and looks like.
+#include "vtkPVHapticScene.h"
+
+#include "PVHapticSceneInternals.h"
+#include "vtkCamera.h"
+#include "vtkHapticLandmarks.h"
+#include "vtkHapticOverlay.h"
+#include "vtkHapticServo.h"
+#include "vtkMatrix4x4.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+
+void vtkPVHapticScene::SetWorkspaceTransform(const double matrix[16])
+{
+  Internals& self = *this->Internal;
+  double now[16];
+  this->GetWorkspaceTransform(now);
+  if (std::equal(matrix, matrix + 16, now))
+  {
+    return; // so that the god-object need not start anew
+  }
+  if (std::all_of(matrix, matrix + 16, [](double element) { return element == 0.0; }))
+  {
+    self.Fitted = false;
+    return;
+  }
+  vtkNew<vtkMatrix4x4> transform;
+  transform->DeepCopy(matrix);
+  if (self.Scene->SetWorkspaceTransform(transform))
+  {
+    self.Fitted = true;
+    self.PathIsKnown = false;
+  }
+  else
+  {
+    self.Message = self.Scene->GetErrorMessage();
+  }
+}
+
+void vtkPVHapticScene::GetWorkspaceTransform(double matrix[16])
+{
+  std::fill_n(matrix, 16, 0.0);
+  if (this->Internal->Fitted)
+  {
+    std::copy_n(this->Internal->Scene->GetWorkspaceTransform()->GetData(), 16, matrix);
+  }
+}
+
+bool vtkPVHapticScene::Fit()
+{
+  Internals& self = *this->Internal;
+  if (!self.View)
+  {
+    this->Fail("There is no render view to fit the device's workspace to. Activate one.");
+    return false;
+  }
+  if (!this->ChooseDevice())
+  {
+    return false;
+  }
+  this->SyncSurfaces();
+  vtkCamera* camera = self.View->GetActiveCamera();
+  vtkPolyData* path = self.Choice.WorldPath();
+  double bounds[6] = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+  if (path && !self.Choice.Strokes())
+  {
+    path->GetBounds(bounds);
+    self.Fitted = self.Scene->FitWorkspace(bounds, camera);
+  }
+  else
+  {
+    self.Fitted = self.Scene->FitWorkspace(camera);
+  }
+  if (!self.Fitted)
+  {
+    self.Message = self.Scene->GetErrorMessage();
+    return false;
+  }
+  self.PathIsKnown = false;
+  return true;
+}
+
+void vtkPVHapticScene::ScaleWorkspace(double factor)
+{
+  if (!this->Internal->Scene->ScaleWorkspace(factor))
+  {
+    this->Internal->Message = this->Internal->Scene->GetErrorMessage();
+  }
+}
+
+void vtkPVHapticScene::SetClutched(bool clutched)
+{
+  this->Internal->Scene->SetClutched(clutched);
+}
+
+bool vtkPVHapticScene::GetClutched()
+{
+  return this->Internal->Scene->GetClutched();
+}
+
+void vtkPVHapticScene::SetShowForce(bool show)
+{
+  this->Internal->Scene->GetOverlay()->SetShowForce(show);
+}
+
+void vtkPVHapticScene::SetShowReadout(bool show)
+{
+  this->Internal->Scene->GetOverlay()->SetShowReadout(show);
+}
+
+void vtkPVHapticScene::SetShowTrail(bool show)
+{
+  this->Internal->Scene->GetGodObjectActor()->SetShowTrail(show);
+}
+
+void vtkPVHapticScene::SetRecordingFileName(const char* name)
+{
+  this->Internal->Scene->GetServo()->SetRecordingFileName(name ? name : "");
+  this->Modified();
+}
+
+void vtkPVHapticScene::SetRecordTrace(bool record)
+{
+  if (record != this->GetRecordTrace())
+  {
+    record ? this->Internal->Scene->StartRecording() : this->Internal->Scene->StopRecording();
+  }
+}
+
+bool vtkPVHapticScene::GetRecordTrace()
+{
+  return this->Internal->Scene->GetRecording();
+}
+
+void vtkPVHapticScene::DropLandmark()
+{
+  if (this->Internal->Scene->DropLandmark() < 0)
+  {
+    this->Internal->Message = this->Internal->Scene->GetErrorMessage();
+  }
+}
+
+void vtkPVHapticScene::RemoveLastLandmark()
+{
+  this->Internal->Scene->GetLandmarks()->Undo();
+}
+
+void vtkPVHapticScene::ClearLandmarks()
+{
+  this->Internal->Scene->GetLandmarks()->RemoveAll();
+}
+
+int vtkPVHapticScene::GetNumberOfLandmarks()
+{
+  return this->Internal->Scene->GetLandmarks()->GetNumberOfLandmarks();
+}

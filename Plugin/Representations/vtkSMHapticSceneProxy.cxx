@@ -1,0 +1,200 @@
+#include "vtkSMHapticSceneProxy.h"
+
+#include "vtkCommand.h"
+#include "vtkObjectFactory.h"
+#include "vtkPVHapticScene.h"
+#include "vtkPVSession.h"
+#include "vtkPVXMLElement.h"
+#include "vtkSMDoubleVectorProperty.h"
+#include "vtkSMIntVectorProperty.h"
+#include "vtkSMProperty.h"
+#include "vtkSMPropertyHelper.h"
+#include "vtkSMProxyManager.h"
+#include "vtkSMProxyProperty.h"
+#include "vtkSMSession.h"
+#include "vtkSMSessionProxyManager.h"
+#include "vtkSMStringVectorProperty.h"
+#include "vtkSMTrace.h"
+
+vtkStandardNewMacro(vtkSMHapticSceneProxy);
+
+vtkSMHapticSceneProxy::vtkSMHapticSceneProxy()
+{
+  this->AddObserver(
+    vtkCommand::PropertyModifiedEvent, this, &vtkSMHapticSceneProxy::OnPropertyModified);
+}
+
+vtkSMHapticSceneProxy::~vtkSMHapticSceneProxy() = default;
+
+vtkPVHapticScene* vtkSMHapticSceneProxy::GetScene()
+{
+  return this->ObjectsCreated ? vtkPVHapticScene::SafeDownCast(this->GetClientSideObject())
+                              : nullptr;
+}
+
+void vtkSMHapticSceneProxy::CreateVTKObjects()
+{
+  const bool first = !this->ObjectsCreated;
+  this->Superclass::CreateVTKObjects();
+  if (first && this->ObjectsCreated)
+  {
+    this->GetScene()->SetInPieces(
+      this->GetSession()->GetNumberOfProcesses(vtkPVSession::DATA_SERVER) > 1);
+    // VTK drops these observers when this object goes.
+    this->GetSessionProxyManager()->AddObserver(
+      vtkCommand::UnRegisterEvent, this, &vtkSMHapticSceneProxy::OnUnregistered);
+    this->GetSession()->AddObserver(
+      vtkPVSessionBase::ConnectionLost, this, &vtkSMHapticSceneProxy::OnConnectionLost);
+  }
+}
+
+void vtkSMHapticSceneProxy::OnUnregistered(vtkObject*, unsigned long, void* information)
+{
+  auto* gone = static_cast<vtkSMProxyManager::RegisteredProxyInformation*>(information)->Proxy;
+  bool concerned = false;
+  for (const char* name : { "View", "Surfaces" })
+  {
+    vtkSMPropertyHelper held(this, name);
+    for (unsigned int i = held.GetNumberOfElements(); gone && i > 0; --i)
+    {
+      if (held.GetAsProxy(i - 1) == gone)
+      {
+        held.Remove(gone);
+        concerned = true;
+      }
+    }
+  }
+  if (concerned)
+  {
+    this->Untraced.clear(); // replaying the deletion does the same
+    this->Superclass::UpdateVTKObjects();
+    this->GetScene()->Update(); // the force goes now, not when somebody asks next
+  }
+}
+
+void vtkSMHapticSceneProxy::OnConnectionLost()
+{
+  if (vtkPVHapticScene* scene = this->GetScene())
+  {
+    scene->ReleaseBecause("The connection to the server is lost");
+  }
+}
+
+void vtkSMHapticSceneProxy::OnPropertyModified(vtkObject*, unsigned long, void* name)
+{
+  vtkSMProperty* property = name ? this->GetProperty(static_cast<const char*>(name)) : nullptr;
+  if (property && !property->GetInformationOnly() && vtkSMTrace::GetActiveTracer())
+  {
+    this->Untraced.insert(static_cast<const char*>(name));
+  }
+}
+
+void vtkSMHapticSceneProxy::UpdateVTKObjects()
+{
+  if (!this->Untraced.empty())
+  {
+    this->Trace();
+  }
+  this->Superclass::UpdateVTKObjects();
+}
+
+void vtkSMHapticSceneProxy::Trace()
+{
+  vtkSMTrace::TraceItemArgs values;
+  vtkSMTrace::TraceItemArgs surfaces;
+  values.arg("vtkhaptics.paraview.scene().set");
+  surfaces.arg("vtkhaptics.paraview.scene().touch_only");
+  bool hasValues = false;
+  for (const std::string& name : this->Untraced)
+  {
+    const char* key = name.c_str();
+    vtkSMProperty* property = this->GetProperty(key);
+    vtkSMPropertyHelper value(property, true);
+    if (value.GetNumberOfElements() == 1 && name != "Surfaces")
+    {
+      hasValues = true;
+      if (vtkSMProxyProperty::SafeDownCast(property))
+      {
+        values.arg(key, value.GetAsProxy());
+      }
+      else if (vtkSMStringVectorProperty::SafeDownCast(property))
+      {
+        values.arg(key, value.GetAsString());
+      }
+      else if (vtkSMIntVectorProperty::SafeDownCast(property))
+      {
+        values.arg(key, value.GetAsInt());
+      }
+      else
+      {
+        values.arg(key, value.GetAsDouble());
+      }
+    }
+    else if (vtkSMDoubleVectorProperty::SafeDownCast(property))
+    {
+      hasValues = true;
+      values.arg(key, value.GetDoubleArray());
+    }
+    for (unsigned int i = 0; name == "Surfaces" && i < value.GetNumberOfElements(); ++i)
+    {
+      surfaces.arg(value.GetAsProxy(i));
+    }
+  }
+  if (this->TracedTo != vtkSMTrace::GetActiveTracer())
+  {
+    this->TracedTo = vtkSMTrace::GetActiveTracer();
+    SM_SCOPED_TRACE(TraceText).arg("import vtkhaptics.paraview");
+  }
+  if (this->Untraced.count("Surfaces") > 0)
+  {
+    vtkSMTrace::TraceItem item("CallFunction");
+    item = surfaces;
+  }
+  if (hasValues)
+  {
+    vtkSMTrace::TraceItem item("CallFunction");
+    item = values;
+  }
+  this->Untraced.clear();
+}
+
+void vtkSMHapticSceneProxy::UpdatePropertyInformation()
+{
+  this->SyncWorkspace();
+  this->Superclass::UpdatePropertyInformation();
+}
+
+/// Fit(), the clutch and others change the transform without this proxy's doing.
+void vtkSMHapticSceneProxy::SyncWorkspace()
+{
+  if (vtkPVHapticScene* scene = this->GetScene())
+  {
+    double matrix[16];
+    scene->GetWorkspaceTransform(matrix);
+    vtkSMPropertyHelper(this, "WorkspaceTransform").Set(matrix, 16);
+    this->UpdateProperty("WorkspaceTransform"); // it is in force already
+  }
+}
+
+vtkPVXMLElement* vtkSMHapticSceneProxy::SaveXMLState(
+  vtkPVXMLElement* root, vtkSMPropertyIterator* iterator)
+{
+  this->SyncWorkspace();
+  vtkPVXMLElement* saved = this->Superclass::SaveXMLState(root, iterator);
+  // What the hand does just now is no part of a state: above all nothing engages by being loaded.
+  for (unsigned int i = saved ? saved->GetNumberOfNestedElements() : 0; i > 0; --i)
+  {
+    vtkPVXMLElement* element = saved->GetNestedElement(i - 1);
+    vtkSMProperty* property = this->GetProperty(element->GetAttributeOrEmpty("name"));
+    if (property && (property->GetInformationOnly() || property->IsStateIgnored()))
+    {
+      saved->RemoveNestedElement(element);
+    }
+  }
+  return saved;
+}
+
+void vtkSMHapticSceneProxy::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+}

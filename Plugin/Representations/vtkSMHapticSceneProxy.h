@@ -1,0 +1,62 @@
+/**
+ * @class   vtkSMHapticSceneProxy
+ * @brief   The proxy of a vtkPVHapticScene: keeps up with what is deleted, saved and traced
+ *
+ * A view or representation that is unregistered leaves the scene at once, as does everything when
+ * the server is lost; state files get the workspace transform that is in force; and while ParaView
+ * traces, each change of a property becomes a line of Python.
+ *
+ * GUI thread.
+ *
+ * @sa vtkPVHapticScene
+ */
+#ifndef vtkSMHapticSceneProxy_h
+#define vtkSMHapticSceneProxy_h
+
+#include "vtkHapticsRepresentationsModule.h"
+#include "vtkSMProxy.h"
+#include "vtkWeakPointer.h"
+
+#include <set>
+#include <string>
+
+class vtkPVHapticScene;
+class vtkSMTrace;
+
+class VTKHAPTICSREPRESENTATIONS_EXPORT vtkSMHapticSceneProxy : public vtkSMProxy
+{
+public:
+  static vtkSMHapticSceneProxy* New();
+  vtkTypeMacro(vtkSMHapticSceneProxy, vtkSMProxy);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /** The scene itself; null for the prototype. */
+  vtkPVHapticScene* GetScene();
+
+  void UpdateVTKObjects() override;
+  using vtkSMProxy::UpdatePropertyInformation;
+  void UpdatePropertyInformation() override;
+  using vtkSMProxy::SaveXMLState;
+  vtkPVXMLElement* SaveXMLState(vtkPVXMLElement* root, vtkSMPropertyIterator* iterator) override;
+
+protected:
+  vtkSMHapticSceneProxy();
+  ~vtkSMHapticSceneProxy() override;
+
+  void CreateVTKObjects() override;
+
+private:
+  vtkSMHapticSceneProxy(const vtkSMHapticSceneProxy&) = delete;
+  void operator=(const vtkSMHapticSceneProxy&) = delete;
+
+  void OnUnregistered(vtkObject* caller, unsigned long event, void* information);
+  void OnConnectionLost();
+  void OnPropertyModified(vtkObject* caller, unsigned long event, void* name);
+  void SyncWorkspace();
+  void Trace();
+
+  std::set<std::string> Untraced;      // properties that have changed since the last update
+  vtkWeakPointer<vtkSMTrace> TracedTo; // the tracer that imports what the lines need
+};
+
+#endif
