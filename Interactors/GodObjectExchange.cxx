@@ -8,8 +8,7 @@ namespace haptics
 GodObjectExchange::GodObjectExchange()
 {
   auto freeSpace = std::make_unique<NumberedGodObject>();
-  freeSpace->Object =
-    std::make_unique<GodObject>(std::vector<TouchedSurface>{});
+  freeSpace->Object = std::make_unique<GodObject>(std::vector<TouchedSurface>{});
   this->Current = freeSpace.release();
 }
 
@@ -42,11 +41,12 @@ void GodObjectExchange::Collect()
 
 NumberedGodObject& GodObjectExchange::Take() noexcept
 {
-  if (this->Incoming.load(std::memory_order_relaxed) && this->Retired.HasRoom())
+  if (this->Incoming.load(std::memory_order_relaxed) && this->Retired.HasRoom() &&
+    this->Current->Object->HasArrived())
   {
     // Publish() never withdraws, so there is still one, perhaps a newer one.
     NumberedGodObject* next = this->Incoming.exchange(nullptr, std::memory_order_acq_rel);
-    next->Object->Continue(*this->Current->Object);
+    next->IsSeamless = next->Object->Continue(*this->Current->Object);
     this->Retired.Push(this->Current);
     this->Current = next;
   }

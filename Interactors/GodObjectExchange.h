@@ -16,6 +16,7 @@ struct NumberedGodObject
 {
   std::unique_ptr<GodObject> Object;
   std::uint64_t Generation = 0;
+  bool IsSeamless = false; ///< goes on where the one before was, with surfaces that have not jumped
 };
 
 /// @brief Swaps the servo's god-object for one with other surfaces, wait-free.
@@ -38,7 +39,8 @@ public:
   /// Deletes what the servo has given back. GUI thread.
   void Collect();
 
-  /// The servo's god-object: the newest published one, which goes on where the last one stood.
+  /// The servo's god-object: the newest published one, which goes on where the last one stood, once
+  /// that one's surfaces no longer deform (GodObject::HasArrived(), within a second).
   /// Never null. Servo thread.
   NumberedGodObject& Take() noexcept;
 

@@ -108,7 +108,7 @@ bool ServoCycle::NoticeJumps(const NumberedGodObject& god, const ServoSettings& 
 {
   const bool mustPlace = this->MustPlace || this->Placements != settings.Placements;
   // What was published before the first tick is what the run begins with: no change.
-  const bool changed = !this->IsFirst && god.Generation != this->Now.Generation;
+  const bool changed = !this->IsFirst && god.Generation != this->Now.Generation && !god.IsSeamless;
   if (mustPlace || changed)
   {
     this->Guard.StartSoftly(settings.Safety);

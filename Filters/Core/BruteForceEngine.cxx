@@ -13,21 +13,18 @@ struct Bounds
   Vector Low, High;
 };
 
+Bounds BoundsOf(const std::vector<Vec3>& points, const std::array<std::int32_t, 3>& t)
+{
+  const Vector a = ToVector(points[t[0]]);
+  const Vector b = ToVector(points[t[1]]);
+  const Vector c = ToVector(points[t[2]]);
+  return { glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)) };
+}
+
 class BruteForceEngine final : public CollisionEngine
 {
 public:
-  explicit BruteForceEngine(const EngineInput& input)
-    : Margin(input.Margin)
-  {
-    this->Boxes.reserve(input.Triangles.size());
-    for (const auto& t : input.Triangles)
-    {
-      const Vector a = ToVector(input.Points[t[0]]);
-      const Vector b = ToVector(input.Points[t[1]]);
-      const Vector c = ToVector(input.Points[t[2]]);
-      this->Boxes.push_back({ glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)) });
-    }
-  }
+  explicit BruteForceEngine(const EngineInput& input) { this->Take(input); }
 
   void FindInBall(const Vec3& centre, double radius, TriangleList& found) const noexcept override
   {
@@ -42,6 +39,12 @@ public:
     this->FindInBox({ glm::min(p, q) - this->Margin, glm::max(p, q) + this->Margin }, found);
   }
 
+  bool Refit(const EngineInput& input, bool) override
+  {
+    this->Take(input);
+    return true;
+  }
+
   EngineKind Kind() const noexcept override { return EngineKind::BruteForce; }
   std::size_t MemoryBytes() const noexcept override
   {
@@ -49,6 +52,23 @@ public:
   }
 
 private:
+  void Take(const EngineInput& input)
+  {
+    this->Margin = input.Margin;
+    this->Boxes.clear();
+    this->Boxes.reserve(input.Triangles.size());
+    for (const auto& t : input.Triangles)
+    {
+      Bounds box = BoundsOf(input.Points, t);
+      if (input.StartPoints)
+      {
+        const Bounds start = BoundsOf(*input.StartPoints, t);
+        box = { glm::min(box.Low, start.Low), glm::max(box.High, start.High) };
+      }
+      this->Boxes.push_back(box);
+    }
+  }
+
   // Comparisons of rounded box corners only: the rounding is far below the margin in both calls.
   void FindInBox(const Bounds& box, TriangleList& found) const noexcept
   {
@@ -65,7 +85,7 @@ private:
   }
 
   std::vector<Bounds> Boxes;
-  double Margin;
+  double Margin = 0.0;
 };
 }
 

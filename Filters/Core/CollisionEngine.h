@@ -42,6 +42,19 @@ struct TriangleList
   }
 };
 
+/// What an engine is built over. It keeps references to the arrays.
+struct EngineInput
+{
+  const std::vector<Vec3>& Points; ///< local frame
+  const std::vector<std::array<std::int32_t, 3>>& Triangles;
+  double Radius; ///< no point is farther from the local origin
+  double Margin; ///< FindOnSegment thickens its segment by this
+  /// Where points come from that are on their way: a triangle is found where it passes. Null: none
+  /// moves. Engines that cannot Refit() do not look at it.
+  const std::vector<Vec3>* StartPoints = nullptr;
+  bool IsRefitted = false; ///< Refit() will be called
+};
+
 /// @brief Proposes the triangles that a contact update has to look at.
 ///
 /// Both questions are answered *conservatively*: every triangle that meets the region is in the
@@ -61,18 +74,20 @@ public:
   virtual void FindOnSegment(
     const Vec3& from, const Vec3& to, TriangleList& found) const noexcept = 0;
 
+  /// Takes in points that have moved, with the same triangles; `rebuild` where the engine's inner
+  /// order has to follow them too, which takes longer and makes queries quick again. No query may
+  /// run meanwhile. False where memory ran out, or this kind of engine cannot: then it is of no
+  /// more use. Any thread but the servo's.
+  virtual bool Refit(const EngineInput& input, bool rebuild)
+  {
+    (void)input;
+    (void)rebuild;
+    return false;
+  }
+
   virtual EngineKind Kind() const noexcept = 0;
   /// Bytes held beyond the surface's own points and triangles.
   virtual std::size_t MemoryBytes() const noexcept = 0;
-};
-
-/// What an engine is built over. It keeps references to the two arrays.
-struct EngineInput
-{
-  const std::vector<Vec3>& Points; ///< local frame
-  const std::vector<std::array<std::int32_t, 3>>& Triangles;
-  double Radius; ///< no point is farther from the local origin
-  double Margin; ///< FindOnSegment thickens its segment by this
 };
 
 /// Makes an engine, or returns null when it is not there or memory ran out. Automatic picks by

@@ -64,23 +64,22 @@ class EmbreeEngine final : public CollisionEngine
 {
 public:
   explicit EmbreeEngine(const EngineInput& input)
-    : Points(input.Points)
-    , Triangles(input.Triangles)
-    , Scale(std::exp2(-std::ceil(std::log2(input.Radius))))
-    , BoxPad(Pad + input.Margin * this->Scale)
-    , Device(rtcNewDevice(nullptr))
+    : Device(rtcNewDevice(nullptr))
   {
+    this->Take(input);
     rtcSetDeviceMemoryMonitorFunction(this->Device, CountBytes, this);
     this->Scene = rtcNewScene(this->Device);
-    rtcSetSceneFlags(this->Scene, RTC_SCENE_FLAG_ROBUST);
-    RTCGeometry geometry = rtcNewGeometry(this->Device, RTC_GEOMETRY_TYPE_USER);
-    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(this->Triangles.size()));
-    rtcSetGeometryUserData(geometry, this);
-    rtcSetGeometryBoundsFunction(geometry, ComputeBounds, nullptr);
-    rtcSetGeometryOccludedFunction(geometry, CollectFromSegment);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(this->Scene, geometry);
-    rtcReleaseGeometry(geometry);
+    const int dynamic = input.IsRefitted ? RTC_SCENE_FLAG_DYNAMIC : RTC_SCENE_FLAG_NONE;
+    rtcSetSceneFlags(this->Scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | dynamic));
+    this->Geometry = rtcNewGeometry(this->Device, RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryUserPrimitiveCount(
+      this->Geometry, static_cast<unsigned>(this->Triangles->size()));
+    rtcSetGeometryUserData(this->Geometry, this);
+    rtcSetGeometryBoundsFunction(this->Geometry, ComputeBounds, nullptr);
+    rtcSetGeometryOccludedFunction(this->Geometry, CollectFromSegment);
+    rtcCommitGeometry(this->Geometry);
+    rtcAttachGeometry(this->Scene, this->Geometry);
+    rtcReleaseGeometry(this->Geometry); // the scene keeps it
     rtcCommitScene(this->Scene);
   }
 
@@ -95,6 +94,16 @@ public:
 
   /// False when Embree could not build, as when memory ran out.
   bool IsBuilt() const { return rtcGetDeviceError(this->Device) == RTC_ERROR_NONE; }
+
+  bool Refit(const EngineInput& input, bool rebuild) override
+  {
+    this->Take(input);
+    rtcSetGeometryBuildQuality(
+      this->Geometry, rebuild ? RTC_BUILD_QUALITY_MEDIUM : RTC_BUILD_QUALITY_REFIT);
+    rtcCommitGeometry(this->Geometry);
+    rtcCommitScene(this->Scene);
+    return this->IsBuilt();
+  }
 
   void FindInBall(const Vec3& centre, double radius, TriangleList& found) const noexcept override
   {
@@ -146,15 +155,37 @@ public:
   }
 
 private:
+  void Take(const EngineInput& input)
+  {
+    this->Points = &input.Points;
+    this->StartPoints = input.StartPoints;
+    this->Triangles = &input.Triangles;
+    this->Scale = std::exp2(-std::ceil(std::log2(input.Radius)));
+    this->BoxPad = Pad + input.Margin * this->Scale;
+  }
+
   static void ComputeBounds(const RTCBoundsFunctionArguments* arguments)
   {
     const auto* self = static_cast<const EmbreeEngine*>(arguments->geometryUserPtr);
-    const auto& t = self->Triangles[arguments->primID];
-    const Vector a = ToVector(self->Points[t[0]]);
-    const Vector b = ToVector(self->Points[t[1]]);
-    const Vector c = ToVector(self->Points[t[2]]);
-    const Vector low = glm::min(a, glm::min(b, c)) * self->Scale - self->BoxPad;
-    const Vector high = glm::max(a, glm::max(b, c)) * self->Scale + self->BoxPad;
+    const auto& t = (*self->Triangles)[arguments->primID];
+    Vector least(HUGE_VAL);
+    Vector most(-HUGE_VAL);
+    const auto cover = [&](const std::vector<Vec3>& points)
+    {
+      for (const std::int32_t corner : t)
+      {
+        const Vector x = ToVector(points[corner]);
+        least = glm::min(least, x);
+        most = glm::max(most, x);
+      }
+    };
+    cover(*self->Points);
+    if (self->StartPoints)
+    {
+      cover(*self->StartPoints);
+    }
+    const Vector low = least * self->Scale - self->BoxPad;
+    const Vector high = most * self->Scale + self->BoxPad;
     RTCBounds& bounds = *arguments->bounds_o;
     bounds.lower_x = static_cast<float>(low.x);
     bounds.lower_y = static_cast<float>(low.y);
@@ -170,13 +201,16 @@ private:
     return true;
   }
 
-  const std::vector<Vec3>& Points;
-  const std::vector<std::array<std::int32_t, 3>>& Triangles;
-  double Scale;  ///< surface's local frame to Embree's
-  double BoxPad; ///< in Embree's frame
+  // Read while Embree builds, and never by a query.
+  const std::vector<Vec3>* Points = nullptr;
+  const std::vector<Vec3>* StartPoints = nullptr; ///< null where none moves
+  const std::vector<std::array<std::int32_t, 3>>* Triangles = nullptr;
+  double Scale = 1.0;  ///< surface's local frame to Embree's
+  double BoxPad = 0.0; ///< in Embree's frame
   std::atomic<std::ptrdiff_t> Bytes{ 0 };
   RTCDevice Device;
   RTCScene Scene = nullptr;
+  RTCGeometry Geometry = nullptr;
 };
 }
 

@@ -30,6 +30,10 @@ GodObject::Implementation::Implementation(std::vector<TouchedSurface> surfaces)
   {
     const auto index = static_cast<std::int32_t>(this->Sets.size());
     this->Sets.emplace_back(touched.Surface, index, this->FrameOf(index, RigidPose()));
+    if (touched.Surface->Deforms())
+    {
+      this->Deforming.push_back(index);
+    }
     if (SurfaceMotion* const motion = touched.Motion.get())
     {
       Mover mover;
@@ -247,19 +251,26 @@ void GodObject::Place(const Vec3& hip) noexcept
   this->Internal->Result.Position = hip;
 }
 
-void GodObject::Continue(const GodObject& previous) noexcept
+bool GodObject::Continue(const GodObject& previous) noexcept
 {
-  if (previous.Internal->IsPlaced)
+  if (!previous.Internal->IsPlaced)
   {
-    this->Internal->Continue(*previous.Internal);
-    this->Internal->Result = previous.Internal->Result;
-    this->Internal->StayInContact(*previous.Internal);
+    return false;
   }
+  this->Internal->Result = previous.Internal->Result;
+  const bool isSeamless = this->Internal->Continue(*previous.Internal);
+  this->Internal->StayInContact(*previous.Internal);
+  return isSeamless;
 }
 
 void GodObject::Advance(double dt) noexcept
 {
   this->Internal->Advance(dt);
+}
+
+bool GodObject::HasArrived() const noexcept
+{
+  return this->Internal->HasArrived();
 }
 
 const Contact& GodObject::Update(const Vec3& hip) noexcept
@@ -336,6 +347,11 @@ Vec3 GodObject::WayOrigin() const noexcept
 Vec3 GodObject::LocalPosition(int surface) const noexcept
 {
   return ToVec3(this->Internal->Sets[surface].LocalPosition());
+}
+
+double GodObject::DeformFraction(int surface) const noexcept
+{
+  return this->Internal->Sets[surface].Fraction();
 }
 
 const std::vector<TouchedSurface>& GodObject::Surfaces() const noexcept

@@ -65,7 +65,9 @@ struct Contact
 ///
 /// **Surfaces that move** see the god-object move, and its way in their own frame is certified like
 /// any other: from the point where they last had it, bit for bit, to the next. So nothing passes
-/// through at any speed. A god-object that touches is taken along by the first surface that holds
+/// through at any speed. Triangles of a surface that deforms (SurfaceDeformer) go straight from
+/// tick to tick, and what is not certain to pass beside the god-object counts as passing over it. A
+/// god-object that touches is taken along by the first surface that holds
 /// it, then pushed out of what has come into its place. Where surfaces close in and leave no place,
 /// each keeps a god-object of its own that nothing passes, there is no force
 /// (UpdateStatus::Squeezed), and contact goes on when there is a place again for all.
@@ -93,11 +95,15 @@ public:
 
   /// Puts the god-object at `hip` as in free space. Servo thread. [world]
   void Place(const Vec3& hip) noexcept;
-  /// Starts where another god-object stands, when the surfaces have changed. Servo thread.
-  void Continue(const GodObject& previous) noexcept;
+  /// Starts where another god-object stands, when the surfaces have changed. True where nothing
+  /// happens at once: the surfaces are the same, or go on deforming from where they are. Servo
+  /// thread.
+  bool Continue(const GodObject& previous) noexcept;
   /// Takes all motions on by `dt` [s], and the god-object with them. Servo thread, before Update();
   /// no allocation, no lock, bounded work; nothing where no surface can move.
   void Advance(double dt) noexcept;
+  /// Whether no surface deforms any more: then the next snapshots may follow. Servo thread.
+  bool HasArrived() const noexcept;
   /// Moves the god-object towards the HIP, to where the surfaces let it go. Servo thread; no
   /// allocation, no lock, bounded work. The first update after construction places it.
   const Contact& Update(const Vec3& hip) noexcept;
@@ -114,6 +120,9 @@ public:
   /// certified: what such a surface sees is this point move on straight lines from call to call.
   /// Servo thread. `surface`: index in Surfaces().
   Vec3 LocalPosition(int surface) const noexcept;
+  /// What of a surface's deformation is over, 0 to 1; 1 where none deforms: its points are where
+  /// TriangleSurface::PointAt() says. Servo thread.
+  double DeformFraction(int surface) const noexcept;
 
   const std::vector<TouchedSurface>& Surfaces() const noexcept;
 

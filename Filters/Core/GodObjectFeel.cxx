@@ -95,14 +95,16 @@ void GodObject::Implementation::UpdateFeel()
   }
 }
 
-/// Keeps what held another god-object, at the same place, where only properties have changed: so
-/// that one held by friction stays.
+/// Keeps what held another god-object, at the same place, where only properties have changed or
+/// a surface goes on deforming: so that one held by friction stays.
 void GodObject::Implementation::StayInContact(const Implementation& previous)
 {
   const bool isSameShape = std::equal(this->Surfaces.begin(), this->Surfaces.end(),
     previous.Surfaces.begin(), previous.Surfaces.end(),
     [](const TouchedSurface& a, const TouchedSurface& b)
-    { return a.Surface == b.Surface && a.Motion == b.Motion; });
+    {
+      return (a.Surface == b.Surface || a.Surface->Follows(*b.Surface)) && a.Motion == b.Motion;
+    });
   this->Result.Felt = Feel();
   if (!isSameShape || previous.Active.IsEmpty())
   {
@@ -110,7 +112,7 @@ void GodObject::Implementation::StayInContact(const Implementation& previous)
   }
   this->Active = previous.Active;
   this->Cone = previous.Cone;
-  if (!this->Movers.empty())
+  if (!this->Movers.empty() || !this->Deforming.empty())
   {
     this->Active.Renew(
       [this](ActivePlane& plane) { this->Sets[plane.Facet.Surface].Renew(plane); });

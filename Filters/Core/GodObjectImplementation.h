@@ -32,8 +32,9 @@ public:
   explicit Implementation(std::vector<TouchedSurface> surfaces);
 
   void Place(const Vector& position);
-  void Continue(const Implementation& previous);
+  bool Continue(const Implementation& previous);
   void Advance(double dt);
+  bool HasArrived() const;
   void Update(const Vector& hip);
   void UpdateFeel();
   void StayInContact(const Implementation& previous);
@@ -76,7 +77,9 @@ private:
 
   SurfaceFrame FrameOf(std::int32_t surface, const RigidPose& pose) const;
   void TakePose(Mover& mover);
-  bool Step(double fraction);
+  bool MoveSurfaces(double dt);
+  bool Step(double part);
+  void StepApart();
   bool MoveAll(const Vector& wish, ActivePlanes& planes);
   bool FindFirstHit(const Vector& goal, const ActivePlanes& planes, FacetHit& hit);
   bool IsClear(const Vector& to);
@@ -85,6 +88,7 @@ private:
 
   std::vector<SurfaceMotion*> Motions; ///< each once
   std::vector<Mover> Movers;
+  std::vector<std::int32_t> Deforming; ///< surfaces
   WorkBudget Budget;
   int PassesLeft = 0; ///< of this update
   Friction Cone;

@@ -22,36 +22,36 @@ void GodObject::Implementation::TakePose(Mover& mover)
   this->Sets[mover.Surface].SetFrame(this->FrameOf(mover.Surface, mover.Pose));
 }
 
-void GodObject::Implementation::Continue(const Implementation& previous)
+bool GodObject::Implementation::Continue(const Implementation& previous)
 {
   this->Place(previous.Position + (previous.Origin - this->Origin));
+  std::size_t known = 0;
+  for (std::size_t i = 0; i < this->Sets.size(); ++i)
+  {
+    for (std::size_t j = 0; j < previous.Sets.size(); ++j)
+    {
+      const TriangleSurface& now = this->Sets[i].Surface();
+      const TriangleSurface& then = previous.Sets[j].Surface();
+      if (&now == &then || (now.Follows(then) && previous.Sets[j].Fraction() >= 1.0))
+      {
+        this->Sets[i].Continue(previous.Sets[j]);
+        ++known;
+        break;
+      }
+    }
+  }
+  return known == this->Sets.size() && known == previous.Sets.size();
+}
+
+bool GodObject::Implementation::HasArrived() const
+{
+  return std::all_of(this->Deforming.begin(), this->Deforming.end(),
+    [this](std::int32_t i) { return this->Sets[i].Fraction() >= 1.0; });
 }
 
 void GodObject::Implementation::Advance(double dt)
 {
-  if (this->Movers.empty())
-  {
-    return;
-  }
-  for (SurfaceMotion* motion : this->Motions)
-  {
-    motion->Advance(dt);
-  }
-  bool isMoving = false;
-  for (Mover& mover : this->Movers)
-  {
-    if (mover.Jumps != mover.Motion->Jumps())
-    {
-      // Taken away and put elsewhere: it has not swept over anything.
-      this->TakePose(mover);
-      this->Sets[mover.Surface].Place(this->Position);
-      const std::int32_t gone = mover.Surface;
-      this->Active.KeepSupports(
-        [gone](const ActivePlane& plane) { return plane.Facet.Surface != gone; });
-    }
-    isMoving = isMoving || mover.Pose != mover.Motion->Pose();
-  }
-  if (!isMoving)
+  if ((this->Movers.empty() && this->Deforming.empty()) || !this->MoveSurfaces(dt))
   {
     return;
   }
@@ -78,20 +78,50 @@ void GodObject::Implementation::Advance(double dt)
   {
     this->TakePose(mover);
   }
+  if (this->IsSplit)
+  {
+    this->StepApart();
+  }
   this->Carried += this->Position - before;
 }
 
-/// Takes all surfaces to a fraction of this tick's motion, and the god-object with them. False,
-/// with nothing changed, where there is no certain way for it.
-bool GodObject::Implementation::Step(double fraction)
+/// Takes all motions and deformations on. True where a surface is elsewhere now than its set.
+bool GodObject::Implementation::MoveSurfaces(double dt)
+{
+  for (SurfaceMotion* motion : this->Motions)
+  {
+    motion->Advance(dt);
+  }
+  bool isMoving = false;
+  for (Mover& mover : this->Movers)
+  {
+    if (mover.Jumps != mover.Motion->Jumps())
+    {
+      // Taken away and put elsewhere: it has not swept over anything.
+      this->TakePose(mover);
+      this->Sets[mover.Surface].Place(this->Position);
+      const std::int32_t gone = mover.Surface;
+      this->Active.KeepSupports(
+        [gone](const ActivePlane& plane) { return plane.Facet.Surface != gone; });
+    }
+    isMoving = isMoving || mover.Pose != mover.Motion->Pose();
+  }
+  for (const std::int32_t i : this->Deforming)
+  {
+    isMoving = isMoving || this->Sets[i].Fraction() < 1.0;
+    this->Sets[i].BeginTick(dt);
+  }
+  return isMoving;
+}
+
+/// Takes all surfaces to a part of this tick's motion, and the god-object with them. False, with
+/// nothing changed, where there is no certain way for it.
+bool GodObject::Implementation::Step(double part)
 {
   ActivePlanes planes = this->Active;
   planes.KeepSupports(
     [this](const ActivePlane& plane) { return !plane.IsFar && this->IsOver(plane); });
   const ActivePlanes before = this->Active;
-  const std::int32_t holder =
-    this->Active.SupportSize() > 0 ? this->Active.Support(0).Facet.Surface : -1;
-  Vector wish = this->Position;
   for (Mover& mover : this->Movers)
   {
     WorkingSet& set = this->Sets[mover.Surface];
@@ -99,31 +129,64 @@ bool GodObject::Implementation::Step(double fraction)
     mover.Before = set.Frame();
     if (target != mover.Pose)
     {
-      set.SetFrame(this->FrameOf(mover.Surface,
-        fraction < 1.0 ? Interpolated(mover.Pose, target, mover.Pivot, fraction) : target));
-      if (mover.Surface == holder)
-      {
-        wish = set.Frame().PointToScene(set.LocalPosition());
-      }
+      set.SetFrame(this->FrameOf(
+        mover.Surface, part < 1.0 ? Interpolated(mover.Pose, target, mover.Pivot, part) : target));
+    }
+  }
+  for (const std::int32_t i : this->Deforming)
+  {
+    this->Sets[i].SweepTo(part);
+  }
+  Vector wish = this->Position;
+  if (this->Active.SupportSize() > 0)
+  {
+    const ActivePlane& holder = this->Active.Support(0);
+    const WorkingSet& set = this->Sets[holder.Facet.Surface];
+    if (this->Surfaces[holder.Facet.Surface].Motion || set.Surface().Deforms())
+    {
+      wish = set.Frame().PointToScene(set.CarriedBy(holder));
     }
   }
   const auto renew = [this](ActivePlane& plane) { this->Sets[plane.Facet.Surface].Renew(plane); };
   this->Active.Renew(renew);
   planes.Renew(renew);
-  if (!this->MoveAll(wish, planes))
+  if (this->MoveAll(wish, planes))
   {
-    for (Mover& mover : this->Movers)
+    if (planes.SupportSize() > 0)
     {
-      this->Sets[mover.Surface].SetFrame(mover.Before);
+      this->Active = planes;
     }
-    this->Active = before;
-    return false;
+    return true;
   }
-  if (planes.SupportSize() > 0)
+  for (Mover& mover : this->Movers)
   {
-    this->Active = planes;
+    this->Sets[mover.Surface].SetFrame(mover.Before);
   }
-  return true;
+  for (const std::int32_t i : this->Deforming)
+  {
+    this->Sets[i].SweepNothing();
+  }
+  this->Active = before;
+  return false;
+}
+
+/// A god-object that is split: each surface that deforms takes its own on with it.
+void GodObject::Implementation::StepApart()
+{
+  for (const std::int32_t i : this->Deforming)
+  {
+    WorkingSet& set = this->Sets[i];
+    set.SweepTo(1.0);
+    this->First = static_cast<std::size_t>(i);
+    this->Last = this->First + 1;
+    ActivePlanes planes;
+    if (!this->MoveAll(set.Frame().PointToScene(set.LocalPosition()), planes))
+    {
+      set.SkipTick();
+    }
+  }
+  this->First = 0;
+  this->Last = this->Sets.size();
 }
 
 /// From where each surface has the god-object to one place for all of them: the nearest to the wish

@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace haptics
@@ -67,22 +68,43 @@ double Recentre(TriangleMesh& mesh, Vec3& origin)
   }
   return 0.5 * glm::length(high - low) * (1.0 + 0x1p-40);
 }
+}
 
-/// Longest edge of the triangles that have an area; 0 when none has.
-double LongestEdgeWithArea(const TriangleMesh& mesh)
+TriangleSurface::TriangleSurface()
 {
-  double longest = 0.0;
-  for (const Triangle& t : mesh.Triangles)
+  static std::atomic<std::uint64_t> last{ 0 };
+  this->Number = ++last;
+}
+
+bool TriangleSurface::Measure(double& longestEdge)
+{
+  longestEdge = 0.0;
+  for (const std::vector<Vec3>* const points : { &this->LocalPoints, &this->Start })
   {
-    const Facet facet(
-      ToVector(mesh.Points[t[0]]), ToVector(mesh.Points[t[1]]), ToVector(mesh.Points[t[2]]));
-    if (facet.HasArea())
+    for (const Triangle& t : this->Triangles())
     {
-      longest = std::max(longest, facet.LongestEdge);
+      if (points->empty())
+      {
+        break;
+      }
+      const Facet facet(
+        ToVector((*points)[t[0]]), ToVector((*points)[t[1]]), ToVector((*points)[t[2]]));
+      if (facet.HasArea())
+      {
+        longestEdge = std::max(longestEdge, facet.LongestEdge);
+      }
     }
   }
-  return longest;
+  this->MinimumClearance = std::max(1024.0 * UnitRoundoff * this->SurfaceRadius,
+    0.25 * std::min(this->CrackWidth, this->SurfaceRadius));
+  return longestEdge > 0.0;
 }
+
+EngineInput TriangleSurface::Input(double longestEdge, bool isRefitted) const
+{
+  return { this->LocalPoints, this->Triangles(), this->SurfaceRadius,
+    LargestGrowth(this->MinimumClearance, longestEdge), this->Deforms() ? &this->Start : nullptr,
+    isRefitted };
 }
 
 std::shared_ptr<const TriangleSurface> TriangleSurface::Build(
@@ -95,27 +117,26 @@ std::shared_ptr<const TriangleSurface> TriangleSurface::Build(
   }
   std::shared_ptr<TriangleSurface> surface(new TriangleSurface);
   surface->SurfaceRadius = Recentre(mesh, surface->SurfaceOrigin);
-  surface->Mesh = std::move(mesh);
-  const double longestEdge = LongestEdgeWithArea(surface->Mesh);
-  if (longestEdge == 0.0)
+  surface->CrackWidth = options.CrackWidth;
+  surface->LocalPoints = std::move(mesh.Points);
+  const auto topology = std::make_shared<Topology>();
+  topology->Triangles = std::move(mesh.Triangles);
+  surface->Shared = topology;
+  double longestEdge = 0.0;
+  if (!surface->Measure(longestEdge))
   {
     error = "no triangle of the surface has an area";
     return nullptr;
   }
-  const double crackWidth = std::min(options.CrackWidth, surface->SurfaceRadius);
-  surface->MinimumClearance =
-    std::max(1024.0 * UnitRoundoff * surface->SurfaceRadius, 0.25 * crackWidth);
-  surface->Found = AnalyseSurface(surface->Mesh.Points, surface->Mesh.Triangles, surface->Adjacent);
+  topology->Found = AnalyseSurface(surface->LocalPoints, topology->Triangles, topology->Adjacent);
   surface->Touched = options.TouchedSide;
   if (surface->Touched == Side::Automatic)
   {
-    const SurfaceReport& found = surface->Found;
+    const SurfaceReport& found = surface->Report();
     surface->Touched =
       found.Closed && found.Oriented && found.InsideOutComponents == 0 ? Side::Front : Side::Both;
   }
-  const EngineInput input{ surface->Mesh.Points, surface->Mesh.Triangles, surface->SurfaceRadius,
-    LargestGrowth(surface->MinimumClearance, longestEdge) };
-  surface->Collision = MakeEngine(options.Engine, input);
+  surface->Collision = MakeEngine(options.Engine, surface->Input(longestEdge, false));
   if (!surface->Collision)
   {
     error = options.Engine == EngineKind::Exact
@@ -130,8 +151,9 @@ TriangleSurface::~TriangleSurface() = default;
 
 std::size_t TriangleSurface::MemoryBytes() const
 {
-  return sizeof(*this) + this->Mesh.Points.capacity() * sizeof(Vec3) +
-    this->Mesh.Triangles.capacity() * sizeof(Triangle) +
-    this->Adjacent.capacity() * sizeof(Neighbours::value_type) + this->Collision->MemoryBytes();
+  return sizeof(*this) + (this->LocalPoints.capacity() + this->Start.capacity()) * sizeof(Vec3) +
+    this->Triangles().capacity() * sizeof(Triangle) +
+    this->AdjacentTriangles().capacity() * sizeof(Neighbours::value_type) +
+    this->Collision->MemoryBytes();
 }
 }

@@ -64,35 +64,81 @@ public:
 
   /// Origin of the local frame, in the world frame: the middle of the bounds.
   const Vec3& Origin() const { return this->SurfaceOrigin; }
-  /// Points in the local frame: world minus Origin().
-  const std::vector<Vec3>& Points() const { return this->Mesh.Points; }
-  const std::vector<Triangle>& Triangles() const { return this->Mesh.Triangles; }
+  /// Points in the local frame: world minus Origin(). Of a surface that deforms: where they go.
+  const std::vector<Vec3>& Points() const { return this->LocalPoints; }
+  const std::vector<Triangle>& Triangles() const { return this->Shared->Triangles; }
   /// Half the diagonal of the bounds: no point is farther from Origin(). [world unit]
   double Radius() const { return this->SurfaceRadius; }
   /// Across each edge of each triangle: the neighbour, BoundaryEdge or NonManifoldEdge.
-  const Neighbours& AdjacentTriangles() const { return this->Adjacent; }
+  const Neighbours& AdjacentTriangles() const { return this->Shared->Adjacent; }
   /// How far in front of a facet the god-object is kept at least [world unit]: 1024 roundings of
   /// a coordinate, or a quarter of the crack width, whichever is more.
   double Clearance() const { return this->MinimumClearance; }
 
   /// Front or Both: what Automatic came to.
   Side TouchedSide() const { return this->Touched; }
-  const SurfaceReport& Report() const { return this->Found; }
+  /// Of the surface as it was built.
+  const SurfaceReport& Report() const { return this->Shared->Found; }
   const CollisionEngine& Engine() const { return *this->Collision; }
-  /// Bytes that this snapshot holds, its engine included.
+  /// Bytes that this snapshot holds, its engine included, and what it shares with others.
   std::size_t MemoryBytes() const;
 
-private:
-  TriangleSurface() = default;
+  ///@{
+  /// A surface that deforms, made by SurfaceDeformer: its points are on their way from
+  /// StartPoints() to Points() for a time.
+  bool Deforms() const { return !this->Start.empty(); }
+  /// Local frame; empty where nothing deforms.
+  const std::vector<Vec3>& StartPoints() const { return this->Start; }
+  /// How long the points are on their way [s], from when the snapshot is first touched.
+  double DeformDuration() const { return this->Duration; }
+  /// A point when a fraction of the time is over, 0 to 1: the same for every triangle that shares
+  /// it.
+  Vec3 PointAt(std::int32_t point, double fraction) const
+  {
+    const Vec3& to = this->LocalPoints[point];
+    if (fraction >= 1.0 || this->Start.empty())
+    {
+      return to;
+    }
+    const Vec3& from = this->Start[point];
+    return { from[0] + fraction * (to[0] - from[0]), from[1] + fraction * (to[1] - from[1]),
+      from[2] + fraction * (to[2] - from[2]) };
+  }
+  /// Whether this one starts where `previous` ends: the next snapshot of one deforming surface.
+  bool Follows(const TriangleSurface& previous) const
+  {
+    return this->Predecessor == previous.Number;
+  }
+  ///@}
 
-  TriangleMesh Mesh;
+private:
+  friend class SurfaceDeformer;
+
+  TriangleSurface();
+
+  /// What does not change when points move.
+  struct Topology
+  {
+    std::vector<Triangle> Triangles;
+    Neighbours Adjacent;
+    SurfaceReport Found;
+  };
+
+  /// Clearance and what engines need; false where no triangle has an area.
+  bool Measure(double& longestEdge);
+  EngineInput Input(double longestEdge, bool isRefitted) const;
+
+  std::vector<Vec3> LocalPoints, Start;
+  std::shared_ptr<const Topology> Shared;
   Vec3 SurfaceOrigin{};
-  Neighbours Adjacent;
   double SurfaceRadius = 0.0;
+  double CrackWidth = 0.0;
   double MinimumClearance = 0.0;
+  double Duration = 0.0;
   Side Touched = Side::Front;
-  SurfaceReport Found;
-  std::unique_ptr<CollisionEngine> Collision;
+  std::uint64_t Number = 0;      ///< of this snapshot among all
+  std::uint64_t Predecessor = 0; ///< 0: none
+  std::shared_ptr<CollisionEngine> Collision;
 };
 }
 

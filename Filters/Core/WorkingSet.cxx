@@ -36,6 +36,8 @@ WorkingSet::WorkingSet(
   : Touched(std::move(surface))
   , Index(index)
   , ToSurface(frame)
+  , Now(this->Touched->Deforms() ? 0.0 : 1.0)
+  , Next(this->Now)
   , RadiusToTry(this->Touched->Radius())
 {
   this->KeepClearOfRounding();
@@ -86,6 +88,12 @@ void WorkingSet::Continue(const WorkingSet& previous)
   this->Reach = std::max(this->Reach, previous.Reach);
   this->Position = previous.Position;
   this->Covered = Region::Nothing;
+  if (this->Touched == previous.Touched)
+  {
+    this->Now = previous.Now;
+    this->Next = this->Now;
+    this->Elapsed = previous.Elapsed;
+  }
   // What it has learned of the surface.
   this->RadiusToTry = previous.RadiusToTry;
   this->LargestToTry = previous.LargestToTry;
@@ -125,6 +133,10 @@ bool WorkingSet::FindFirstHit(
   const Vector& goal, const ActivePlanes& active, WorkBudget& budget, FacetHit& hit)
 {
   const Vector to = this->ToSurface.PointToLocal(goal);
+  if (this->IsSweeping())
+  {
+    return this->FindSwept(to, budget, hit);
+  }
   if (this->PassesThroughNothing(to))
   {
     return true;
@@ -182,6 +194,7 @@ bool WorkingSet::GatherBall(WorkBudget& budget)
     this->Radius = (fromOrigin - surfaceRadius) * (1.0 - 0x1p-40);
     this->RadiusToTry = surfaceRadius;
     this->Count = 0;
+    this->FoundCount = 0;
     this->EmptyCentre = this->Position;
     this->EmptyRadius = this->Radius;
     this->MeasurePosition();
@@ -289,6 +302,7 @@ void WorkingSet::Fill(
   const TriangleList& found, const Vector& middle, double radius, double farthest)
 {
   this->Count = 0;
+  this->FoundCount = found.Count;
   double nearest = HUGE_VAL;
   // The corners lie anywhere in memory: all are called for before the first is waited for.
   for (std::int32_t k = 0; k < found.Count; ++k)
@@ -495,6 +509,10 @@ FacetHit WorkingSet::Scan(const Vector& to, const ActivePlanes& active)
 bool WorkingSet::IsClear(const Vector& target)
 {
   const Vector to = this->ToSurface.PointToLocal(target);
+  if (this->IsSweeping())
+  {
+    return this->IsSweepClear && to == this->Target;
+  }
   if (this->PassesThroughNothing(to))
   {
     return true;
@@ -541,6 +559,11 @@ bool WorkingSet::Touches(std::int32_t i, const Vector& from, const Vector& to) c
 
 void WorkingSet::Move()
 {
+  if (this->IsSweeping())
+  {
+    this->MoveSwept();
+    return;
+  }
   this->Position = this->Target;
   if (this->Covered == Region::Segment)
   {
@@ -555,14 +578,6 @@ void WorkingSet::Move()
     this->TurnToPosition();
     this->SetLimits();
   }
-}
-
-void WorkingSet::Renew(ActivePlane& plane) const
-{
-  const auto [a, b, c] = this->CornersOf(plane.Facet.Triangle);
-  const Vector normal = Facet(a, b, c).Normal;
-  plane.Normal = this->ToSurface.VectorToScene(plane.IsFlipped ? -normal : normal);
-  plane.Anchor = this->ToSurface.PointToScene(a);
 }
 
 bool WorkingSet::Covers(const ActivePlane& plane, const Vector& position) const

@@ -42,6 +42,9 @@ struct FacetHit
 ///
 /// A surface that moves is another frame: the god-object stays at the local point where it was, and
 /// the next motion starts from there, so that what is certified is the way as the surface sees it.
+///
+/// A surface that deforms is told to sweep to a later fraction of its time; the next motion is then
+/// made together with its triangles.
 class WorkingSet
 {
 public:
@@ -75,8 +78,22 @@ public:
   /// Moves to the target of the last IsClear, which must have been true.
   void Move();
 
-  /// The plane as its facet is now.
+  ///@{
+  /// A surface that deforms. Between two ticks the fraction of its time goes on to what it is after
+  /// `dt` [s]; of that way any part, 0 to 1, is swept with the next motion.
+  double Fraction() const { return this->Now; }
+  void BeginTick(double dt);
+  void SweepTo(double part);
+  void SweepNothing() { this->Next = this->Now; }
+  /// Goes to the end of the tick, whatever it passes; the god-object has to be placed.
+  void SkipTick();
+  ///@}
+
+  /// The plane as its facet will be after the next motion.
   void Renew(ActivePlane& plane) const;
+  /// The local point that stays over the same place of the plane's facet, and as high, in the next
+  /// motion.
+  Vector CarriedBy(const ActivePlane& plane) const;
 
   /// Whether the god-object stands over the facet itself, not only over its plane.
   bool Covers(const ActivePlane& plane, const Vector& position) const;
@@ -110,13 +127,25 @@ private:
   {
     Vector A, B, C;
   };
-  Corners CornersOf(std::int32_t triangle) const
+  Corners CornersOf(std::int32_t triangle) const { return this->CornersAt(triangle, this->Now); }
+  Corners CornersAt(std::int32_t triangle, double fraction) const
   {
     const auto& corners = this->Touched->Triangles()[triangle];
+    if (fraction < 1.0)
+    {
+      return { ToVector(this->Touched->PointAt(corners[0], fraction)),
+        ToVector(this->Touched->PointAt(corners[1], fraction)),
+        ToVector(this->Touched->PointAt(corners[2], fraction)) };
+    }
     const auto& points = this->Touched->Points();
     return { ToVector(points[corners[0]]), ToVector(points[corners[1]]),
       ToVector(points[corners[2]]) };
   }
+  bool IsSweeping() const { return this->Next != this->Now; }
+  bool GatherSwept(const Vector& to, WorkBudget& budget);
+  bool FindSwept(const Vector& to, WorkBudget& budget, FacetHit& hit);
+  bool Sweeps(std::int32_t triangle, const Vector& to, FacetHit& hit) const;
+  void MoveSwept();
   Growth GrowthOf(std::int32_t triangle, double clearance, double wayError) const;
   Vector FacetNormal(std::int32_t i) const
   {
@@ -135,6 +164,13 @@ private:
   double MinimumClearance = 0.0;
   double Reach = 0.0; ///< no facet is felt farther than this from itself
 
+  double Now = 1.0;  ///< fraction of a deformation's time
+  double Next = 1.0; ///< after the next motion
+  double TickStart = 1.0;
+  double TickEnd = 1.0;
+  double Elapsed = 0.0;      ///< [s] of a deformation
+  bool IsSweepClear = false; ///< to Target
+
   Region Covered = Region::Nothing;
   Vector Centre{ 0 };             ///< of the ball; start of the segment
   double Radius = 0.0;            ///< of the ball
@@ -152,6 +188,7 @@ private:
   // Structure of arrays, one entry a gathered triangle. Distances are to its plane, positive on
   // the side that the god-object is on when both sides can be touched.
   std::int32_t Count = 0;
+  std::int32_t FoundCount = 0; ///< what the engine found, of which Count are near enough
   std::vector<std::int32_t> Found;
   std::vector<std::int32_t> Triangles;
   std::vector<std::uint8_t> Flipped;

@@ -1,0 +1,215 @@
+#include "SurfaceDeformer.h"
+
+#include "VectorMath.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+namespace haptics
+{
+namespace
+{
+/// An engine's order is lost where triangles that it took together have moved apart: groups of
+/// neighbours are watched, as many as show it.
+constexpr std::size_t LargestNumberOfGroups = 512;
+constexpr std::int32_t LargestGroup = 16;
+/// How much the groups' boxes may have grown, against the surface itself.
+constexpr double LargestGrowthOfGroups = 1.5;
+/// More snapshots than these are in nobody's hands at once: the servo's, the next, the one built.
+constexpr std::size_t LargestNumberOfEngines = 4;
+constexpr double LongestDuration = 1.0; // [s]
+
+std::string FindFault(
+  const std::vector<Vec3>& points, double duration, const TriangleSurface& surface)
+{
+  if (points.size() != surface.Points().size())
+  {
+    return std::to_string(points.size()) + " points were given for a surface of " +
+      std::to_string(surface.Points().size()) +
+      ": where their number changes the surface has to be built anew";
+  }
+  if (!(duration >= 0.0 && duration <= LongestDuration))
+  {
+    return "the duration of a deformation must be from 0 to 1 s";
+  }
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const Vec3& p = points[i];
+    if (!std::all_of(p.begin(), p.end(), [](double x) { return std::abs(x) < LargestCoordinate; }))
+    {
+      return "point " + std::to_string(i) + " is not finite, or beyond 1e70";
+    }
+  }
+  if (surface.Engine().Kind() == EngineKind::Exact)
+  {
+    return "the exact engine cannot follow points that move: build the surface with another";
+  }
+  return {};
+}
+}
+
+struct SurfaceDeformer::Engine
+{
+  std::unique_ptr<CollisionEngine> Collision;
+  std::atomic<bool> IsFree{ true }; ///< no snapshot holds it
+  std::vector<std::int32_t> Groups; ///< LargestGroup triangles each, -1 where fewer
+  double SizeWhenBuilt = 0.0;
+
+  /// The mean size of the groups' boxes, in surface radii.
+  double Size(const EngineInput& input) const
+  {
+    double sum = 0.0;
+    for (std::size_t start = 0; start < this->Groups.size(); start += LargestGroup)
+    {
+      Vector low(HUGE_VAL);
+      Vector high(-HUGE_VAL);
+      for (std::int32_t k = 0; k < LargestGroup && this->Groups[start + k] >= 0; ++k)
+      {
+        for (const std::int32_t corner : input.Triangles[this->Groups[start + k]])
+        {
+          const Vector x = ToVector(input.Points[corner]);
+          low = glm::min(low, x);
+          high = glm::max(high, x);
+        }
+      }
+      sum += glm::length(high - low);
+    }
+    return this->Groups.empty()
+      ? 0.0
+      : sum * LargestGroup / static_cast<double>(this->Groups.size()) / input.Radius;
+  }
+
+  /// Chooses groups of triangles that the new engine finds close together.
+  void Watch(const EngineInput& input)
+  {
+    this->Groups.clear();
+    const std::size_t count = input.Triangles.size();
+    const std::size_t stride = std::max<std::size_t>(1, count / LargestNumberOfGroups);
+    std::vector<std::int32_t> found(LargestGroup);
+    for (std::size_t i = 0; i < count; i += stride)
+    {
+      Vector middle(0.0);
+      double size = 0.0;
+      for (const std::int32_t corner : input.Triangles[i])
+      {
+        const Vector x = ToVector(input.Points[corner]);
+        middle += x / 3.0;
+        size = std::max(size, glm::length(x - ToVector(input.Points[input.Triangles[i][0]])));
+      }
+      TriangleList list{ found.data(), LargestGroup };
+      this->Collision->FindInBall(ToVec3(middle), size, list);
+      std::fill(found.begin() + list.Count, found.end(), -1);
+      this->Groups.insert(this->Groups.end(), found.begin(), found.end());
+    }
+    this->SizeWhenBuilt = this->Size(input);
+  }
+};
+
+SurfaceDeformer::SurfaceDeformer(std::shared_ptr<const TriangleSurface> surface)
+  : Current(std::move(surface))
+{
+}
+
+SurfaceDeformer::~SurfaceDeformer() = default;
+
+/// An engine that no snapshot holds any more, or a new one to be built.
+std::shared_ptr<SurfaceDeformer::Engine> SurfaceDeformer::Borrow()
+{
+  for (const auto& engine : this->Engines)
+  {
+    // Acquire: what its last holder read was read before what comes now is written.
+    if (engine->IsFree.load(std::memory_order_acquire))
+    {
+      return engine;
+    }
+  }
+  if (this->Engines.size() == LargestNumberOfEngines)
+  {
+    this->Engines.erase(this->Engines.begin()); // its holders keep it alive
+  }
+  this->Engines.push_back(std::make_shared<Engine>());
+  return this->Engines.back();
+}
+
+bool SurfaceDeformer::Fit(Engine& engine, const EngineInput& input)
+{
+  if (engine.Collision)
+  {
+    const bool isLost = engine.Size(input) > LargestGrowthOfGroups * engine.SizeWhenBuilt;
+    if (!engine.Collision->Refit(input, isLost))
+    {
+      return false;
+    }
+    if (isLost)
+    {
+      ++this->Builds;
+      engine.Watch(input);
+    }
+    return true;
+  }
+  engine.Collision = MakeEngine(this->Current->Engine().Kind(), input);
+  if (!engine.Collision)
+  {
+    return false;
+  }
+  ++this->Builds;
+  engine.Watch(input);
+  return true;
+}
+
+std::shared_ptr<const TriangleSurface> SurfaceDeformer::Deform(
+  std::vector<Vec3> points, double duration, std::string& error)
+{
+  error = FindFault(points, duration, *this->Current);
+  if (!error.empty())
+  {
+    return nullptr;
+  }
+  const TriangleSurface& from = *this->Current;
+  std::shared_ptr<TriangleSurface> next(new TriangleSurface);
+  next->SurfaceOrigin = from.SurfaceOrigin;
+  next->Shared = from.Shared;
+  next->CrackWidth = from.CrackWidth;
+  next->Touched = from.Touched;
+  next->Duration = duration;
+  next->Predecessor = from.Number;
+  next->Start = from.LocalPoints;
+  const Vector origin = ToVector(from.SurfaceOrigin);
+  for (Vec3& p : points)
+  {
+    p = ToVec3(ToVector(p) - origin);
+  }
+  next->LocalPoints = std::move(points);
+  double squaredRadius = 0.0;
+  for (const Triangle& t : next->Triangles())
+  {
+    for (const std::int32_t corner : t)
+    {
+      squaredRadius = std::max({ squaredRadius, SquaredLength(ToVector(next->LocalPoints[corner])),
+        SquaredLength(ToVector(next->Start[corner])) });
+    }
+  }
+  next->SurfaceRadius = std::sqrt(squaredRadius) * (1.0 + 0x1p-40);
+  double longestEdge = 0.0;
+  if (!next->Measure(longestEdge))
+  {
+    error = "no triangle of the surface has an area any more";
+    return nullptr;
+  }
+  const std::shared_ptr<Engine> engine = this->Borrow();
+  if (!this->Fit(*engine, next->Input(longestEdge, true)))
+  {
+    engine->Collision = nullptr; // made anew next time
+    error = "memory ran out while the collision engine was fitted";
+    return nullptr;
+  }
+  engine->IsFree.store(false, std::memory_order_relaxed);
+  next->Collision = std::shared_ptr<CollisionEngine>(engine->Collision.get(),
+    [engine](CollisionEngine*) { engine->IsFree.store(true, std::memory_order_release); });
+  this->Current = next;
+  return next;
+}
+}
