@@ -95,9 +95,11 @@ public:
 
   /// Puts the god-object at `hip` as in free space. Servo thread. [world]
   void Place(const Vec3& hip) noexcept;
-  /// Starts where another god-object stands, when the surfaces have changed. True where nothing
-  /// happens at once: the surfaces are the same, or go on deforming from where they are. Servo
-  /// thread.
+  /// Starts where another god-object stands, when the surfaces have changed. One that is the same,
+  /// or deforms on from where it is, has it where it was. One that takes the place of another
+  /// (TouchedSurface::Identity) and has gone over it has it on the nearest place of the side that
+  /// it was on: outside a solid that it now is in, or, of an open surface, where it was held, in
+  /// front of what held it. True where nothing has changed at once. Servo thread.
   bool Continue(const GodObject& previous) noexcept;
   /// Takes all motions on by `dt` [s], and the god-object with them. Servo thread, before Update();
   /// no allocation, no lock, bounded work; nothing where no surface can move.

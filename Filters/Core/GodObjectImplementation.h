@@ -77,6 +77,8 @@ private:
 
   SurfaceFrame FrameOf(std::int32_t surface, const RigidPose& pose) const;
   void TakePose(Mover& mover);
+  const WorkingSet* FindPredecessor(
+    std::int32_t surface, const Implementation& previous, bool& isSame) const;
   bool MoveSurfaces(double dt);
   bool Step(double part);
   void StepApart();

@@ -22,25 +22,70 @@ void GodObject::Implementation::TakePose(Mover& mover)
   this->Sets[mover.Surface].SetFrame(this->FrameOf(mover.Surface, mover.Pose));
 }
 
+/// The set of `previous` that a surface goes on from, or null. `isSame`: it is the same surface, or
+/// deforms from where that one is.
+const WorkingSet* GodObject::Implementation::FindPredecessor(
+  std::int32_t surface, const Implementation& previous, bool& isSame) const
+{
+  const TouchedSurface& now = this->Surfaces[surface];
+  const WorkingSet* found = nullptr;
+  isSame = false;
+  for (std::size_t j = 0; j < previous.Sets.size() && !isSame; ++j)
+  {
+    const TouchedSurface& then = previous.Surfaces[j];
+    const WorkingSet& set = previous.Sets[j];
+    isSame = now.Motion == then.Motion &&
+      (now.Surface == then.Surface ||
+        (now.Surface->Follows(*then.Surface) && set.Fraction() >= 1.0));
+    if (isSame || (now.Identity != 0 && now.Identity == then.Identity))
+    {
+      found = &set;
+    }
+  }
+  return found;
+}
+
 bool GodObject::Implementation::Continue(const Implementation& previous)
 {
   this->Place(previous.Position + (previous.Origin - this->Origin));
-  std::size_t known = 0;
-  for (std::size_t i = 0; i < this->Sets.size(); ++i)
+  this->Budget.Triangles = LargestNumberOfTriangles;
+  std::size_t same = 0;
+  bool isElsewhere = previous.IsSplit;
+  Vector wish = this->Position;
+  for (WorkingSet& set : this->Sets)
   {
-    for (std::size_t j = 0; j < previous.Sets.size(); ++j)
+    const auto index = static_cast<std::int32_t>(&set - this->Sets.data());
+    bool isSame = false;
+    const WorkingSet* const before = this->FindPredecessor(index, previous, isSame);
+    if (isSame)
     {
-      const TriangleSurface& now = this->Sets[i].Surface();
-      const TriangleSurface& then = previous.Sets[j].Surface();
-      if (&now == &then || (now.Follows(then) && previous.Sets[j].Fraction() >= 1.0))
+      set.Continue(*before);
+      ++same;
+    }
+    else if (before)
+    {
+      const auto surface = static_cast<std::int32_t>(before - previous.Sets.data());
+      const ActivePlane* held = nullptr;
+      for (int i = 0; i < previous.Active.SupportSize(); ++i)
       {
-        this->Sets[i].Continue(previous.Sets[j]);
-        ++known;
-        break;
+        const ActivePlane& plane = previous.Active.Support(i);
+        held = plane.Facet.Surface == surface ? &plane : held;
+      }
+      if (!set.Succeed(*before, held))
+      {
+        wish = set.Frame().PointToScene(set.LocalPosition());
       }
     }
+    isElsewhere = isElsewhere || set.LocalPosition() != set.Frame().PointToLocal(this->Position);
   }
-  return known == this->Sets.size() && known == previous.Sets.size();
+  // All of them agree on one place, each by a motion that it certifies.
+  ActivePlanes planes;
+  this->IsSplit = isElsewhere && !this->MoveAll(wish, planes);
+  if (isElsewhere && planes.SupportSize() > 0)
+  {
+    this->Active = planes;
+  }
+  return same == this->Sets.size() && same == previous.Sets.size();
 }
 
 bool GodObject::Implementation::HasArrived() const

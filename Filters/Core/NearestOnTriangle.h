@@ -5,8 +5,8 @@
 
 namespace haptics
 {
-/// The point of a triangle that is nearest to the origin, to within rounding: a corner, a point of an
-/// edge, or one inside, by the signs of the barycentric coordinates.
+/// The point of a triangle that is nearest to the origin, to within rounding: a corner, a point of
+/// an edge, or one inside, by the signs of the barycentric coordinates.
 inline Vector NearestToOrigin(const Vector& a, const Vector& b, const Vector& c)
 {
   const Vector ab = b - a;

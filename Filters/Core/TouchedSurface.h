@@ -30,6 +30,10 @@ struct TouchedSurface
   std::shared_ptr<SurfaceMotion> Motion;
   /// How it feels; built for Surface. Null, the default: plain, and costs nothing.
   std::shared_ptr<const SurfaceProperties> Properties;
+  /// The same number for all snapshots of what its user takes for one surface. Where its geometry
+  /// changes all at once, contact goes on from it to the next (GodObject::Continue()); 0, the
+  /// default: a surface of its own that comes and goes.
+  std::uint64_t Identity = 0;
 };
 }
 

@@ -4,6 +4,7 @@
 #include "ActivePlanes.h"
 #include "Facet.h"
 #include "SurfaceFrame.h"
+#include "SurfaceSide.h"
 #include "TriangleSurface.h"
 
 #include <array>
@@ -64,6 +65,10 @@ public:
   void Place(const Vector& position);
   /// Stands where another set of the same surface has its god-object.
   void Continue(const WorkingSet& previous);
+  /// Stands where another set had its god-object, of a surface that has changed all at once. False
+  /// where the changed surface has gone over it: then on the nearest place of the side that it was
+  /// on. `held`: a plane of the surface before that held it, or null.
+  bool Succeed(const WorkingSet& previous, const ActivePlane* held);
 
   /// Finds the first facet met on the way to `goal`, short of which the god-object has to stop.
   /// Active facets count only where they would be crossed. False when the budget ends first, or one
@@ -141,6 +146,7 @@ private:
     return { ToVector(points[corners[0]]), ToVector(points[corners[1]]),
       ToVector(points[corners[2]]) };
   }
+  SurfaceSide SideOf(const TriangleSurface& surface, double fraction);
   bool IsSweeping() const { return this->Next != this->Now; }
   bool GatherSwept(const Vector& to, WorkBudget& budget);
   bool FindSwept(const Vector& to, WorkBudget& budget, FacetHit& hit);

@@ -1,0 +1,157 @@
+#include "SurfaceSide.h"
+
+#include "Facet.h"
+#include "NearestOnTriangle.h"
+#include "Predicates.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace haptics
+{
+namespace
+{
+/// Directions of rays, along no axis; the next is taken where one meets an edge or a corner.
+constexpr std::array<std::array<double, 3>, 4> Directions = { { { 0.57, 0.61, 0.55 },
+  { -0.43, 0.31, 0.85 }, { 0.21, -0.93, 0.29 }, { -0.71, -0.37, -0.60 } } };
+/// Points as near as this beside the nearest one are as near.
+constexpr double Tie = 1e-9;
+}
+
+SurfaceSide::SurfaceSide(const TriangleSurface& surface, double fraction, TriangleList scratch)
+  : Surface(surface)
+  , Fraction(fraction)
+  , Scratch(scratch)
+{
+}
+
+SurfaceSide::Corners SurfaceSide::CornersOf(std::int32_t triangle) const
+{
+  const auto& [a, b, c] = this->Surface.Triangles()[triangle];
+  return { ToVector(this->Surface.PointAt(a, this->Fraction)),
+    ToVector(this->Surface.PointAt(b, this->Fraction)),
+    ToVector(this->Surface.PointAt(c, this->Fraction)) };
+}
+
+int SurfaceSide::Crossing(const Vector& from, const Vector& to, std::int32_t triangle) const
+{
+  const auto [a, b, c] = this->CornersOf(triangle);
+  const int before = Orientation(a, b, c, from);
+  const int after = Orientation(a, b, c, to);
+  if (before * after > 0 || !LineMeetsTriangle(from, to, a, b, c))
+  {
+    return 0;
+  }
+  const bool isClean = before != 0 && after != 0 && Orientation(from, to, a, b) != 0 &&
+    Orientation(from, to, b, c) != 0 && Orientation(from, to, c, a) != 0;
+  return isClean ? after : 2;
+}
+
+bool SurfaceSide::CountEnclosing(const Vector& x, int& winding)
+{
+  winding = 0;
+  const double radius = this->Surface.Radius();
+  if (glm::length(x) > radius)
+  {
+    return true; // no triangle is this far out
+  }
+  for (const auto& [u, v, w] : Directions)
+  {
+    // To just outside the ball that holds all triangles.
+    const Vector direction = glm::normalize(Vector(u, v, w));
+    const double along = glm::dot(x, direction);
+    const double outside = 1.05 * radius;
+    const Vector to =
+      x + (std::sqrt(along * along - SquaredLength(x) + outside * outside) - along) * direction;
+    TriangleList found = this->Scratch;
+    found.Count = 0;
+    found.Overflow = false;
+    this->Surface.Engine().FindOnSegment(ToVec3(x), ToVec3(to), found);
+    if (found.Overflow)
+    {
+      return false;
+    }
+    bool isClean = true;
+    int crossings = 0;
+    for (std::int32_t k = 0; k < found.Count && isClean; ++k)
+    {
+      const int crossing = this->Crossing(x, to, found.Indices[k]);
+      isClean = crossing != 2;
+      crossings += crossing;
+    }
+    if (isClean)
+    {
+      winding = crossings;
+      return true;
+    }
+  }
+  return false;
+}
+
+bool SurfaceSide::FindNearest(const Vector& x, Vector& nearest, Vector& normal, bool& isOnRim)
+{
+  const double surfaceRadius = this->Surface.Radius();
+  if (glm::length(x) > 1.5 * surfaceRadius)
+  {
+    return false;
+  }
+  for (double radius = 0x1p-12 * surfaceRadius; radius < 4.0 * surfaceRadius; radius *= 2.0)
+  {
+    TriangleList found = this->Scratch;
+    found.Count = 0;
+    found.Overflow = false;
+    this->Surface.Engine().FindInBall(ToVec3(x), radius, found);
+    if (found.Overflow)
+    {
+      return false;
+    }
+    double best = HUGE_VAL;
+    double facing = -1.0;
+    // The first round finds the distance, the second the facet that faces x most of those there.
+    for (int round = 0; round < 2; ++round)
+    {
+      for (std::int32_t k = 0; k < found.Count; ++k)
+      {
+        const std::int32_t id = found.Indices[k];
+        const auto [a, b, c] = this->CornersOf(id);
+        const Facet facet(a, b, c);
+        if (!facet.HasArea())
+        {
+          continue;
+        }
+        const Vector way = NearestToOrigin(a - x, b - x, c - x);
+        const double distance = glm::length(way);
+        if (round == 0)
+        {
+          best = std::min(best, distance);
+          continue;
+        }
+        const double cosine =
+          distance > 0.0 ? std::abs(glm::dot(facet.Normal, way)) / distance : 1.0;
+        if (distance <= best * (1.0 + Tie) && cosine > facing)
+        {
+          facing = cosine;
+          nearest = x + way;
+          normal = facet.Normal;
+          isOnRim = false;
+          for (int k3 = 0; k3 < 3; ++k3)
+          {
+            const Vector& from = facet.Corner[k3];
+            const Vector edge = facet.Corner[(k3 + 1) % 3] - from;
+            const double off = glm::length(glm::cross(edge, nearest - from));
+            isOnRim = isOnRim ||
+              (this->Surface.AdjacentTriangles()[id][k3] == BoundaryEdge &&
+                off <= Tie * SquaredLength(edge));
+          }
+        }
+      }
+    }
+    if (best <= radius)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+}

@@ -1,0 +1,74 @@
+// The part of WorkingSet that goes on from a surface to the one that takes its place.
+#include "WorkingSet.h"
+
+namespace haptics
+{
+namespace
+{
+/// Whether enclosing is a matter of counting.
+bool IsSolid(const TriangleSurface& surface)
+{
+  return surface.TouchedSide() == Side::Front && surface.Report().Closed &&
+    surface.Report().Oriented;
+}
+/// A facet that leans farther than this from what held the god-object before is not taken for it.
+constexpr double LeastCosine = 0.25;
+/// A place is tried so many clearances off the surface, times 4, 16, ...
+constexpr int LargestNumberOfHeights = 8;
+}
+
+SurfaceSide WorkingSet::SideOf(const TriangleSurface& surface, double fraction)
+{
+  return SurfaceSide(surface, fraction,
+    TriangleList{ this->Found.data(), static_cast<std::int32_t>(this->Found.size()) });
+}
+
+bool WorkingSet::Succeed(const WorkingSet& previous, const ActivePlane* held)
+{
+  this->Covered = Region::Nothing;
+  SurfaceSide before = this->SideOf(*previous.Touched, previous.Now);
+  SurfaceSide now = this->SideOf(*this->Touched, this->Now);
+  const Vector there = this->Position;
+  int enclosedBefore = 0;
+  int enclosed = 0;
+  const bool isCounted = IsSolid(*previous.Touched) && IsSolid(*this->Touched) &&
+    before.CountEnclosing(previous.Position, enclosedBefore) && now.CountEnclosing(there, enclosed);
+  if (isCounted && enclosed <= enclosedBefore)
+  {
+    return true;
+  }
+  Vector nearest(0.0);
+  Vector normal(0.0);
+  bool isOnRim = false;
+  if ((!isCounted && !held) || !now.FindNearest(there, nearest, normal, isOnRim))
+  {
+    return true;
+  }
+  Vector outwards = normal;
+  if (!isCounted)
+  {
+    // Nothing to count: it has been gone over where what held it has come to its other side.
+    const Vector free = this->ToSurface.VectorToLocal(held->Normal);
+    const bool isTurned =
+      this->Touched->TouchedSide() == Side::Both && glm::dot(normal, free) < 0.0;
+    outwards = isTurned ? -normal : normal;
+    const bool isBehind = glm::dot(outwards, there - nearest) < 0.0;
+    if (isOnRim || !isBehind || glm::dot(outwards, free) < LeastCosine)
+    {
+      return true;
+    }
+  }
+  double height = this->MinimumClearance;
+  for (int i = 0; i < LargestNumberOfHeights; ++i)
+  {
+    const Vector place = nearest + height * outwards;
+    if (!isCounted || (now.CountEnclosing(place, enclosed) && enclosed <= enclosedBefore))
+    {
+      this->Position = place;
+      return false;
+    }
+    height *= 4.0;
+  }
+  return true;
+}
+}
