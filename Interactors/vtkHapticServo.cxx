@@ -114,13 +114,18 @@ void vtkHapticServo::SetMaximumForce(double force)
   }
 }
 
-double vtkHapticServo::GetEffectiveStiffness()
+double vtkHapticServo::GetStiffnessLimit()
 {
   const haptics::SafetySettings& safety = this->Internal->Settings.Safety;
   haptics::StiffnessLimit regular;
   regular.Restart(safety.NominalPeriod);
-  const double most = this->Device ? this->Device->GetMaximumStiffness() : this->Stiffness;
-  return std::min({ this->Stiffness, most, regular.Allowed(safety) });
+  const double most = this->Device ? this->Device->GetMaximumStiffness() : VTK_DOUBLE_MAX;
+  return std::min(most, regular.Allowed(safety));
+}
+
+double vtkHapticServo::GetEffectiveStiffness()
+{
+  return std::min(this->Stiffness, this->GetStiffnessLimit());
 }
 
 double vtkHapticServo::GetEffectiveMaximumForce()

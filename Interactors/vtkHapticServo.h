@@ -110,11 +110,13 @@ public:
    * over the safety's SoftStartTime.
    *
    * What is used is not above the device's MaximumStiffness, nor what its Damping and Latency allow
-   * (see vtkHapticSafety): GetEffectiveStiffness() where all periods are exact,
-   * GetCurrentStiffness() as the latest tick had it; 0 before the first tick.
+   * (see vtkHapticSafety): GetStiffnessLimit(), VTK_DOUBLE_MAX without a device, and
+   * GetEffectiveStiffness() where all periods are exact, GetCurrentStiffness() as the latest tick
+   * had it; 0 before the first tick.
    */
   void SetStiffness(double stiffness);
   vtkGetMacro(Stiffness, double);
+  double GetStiffnessLimit();
   double GetEffectiveStiffness();
   double GetCurrentStiffness();
   ///@}

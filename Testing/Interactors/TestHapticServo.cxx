@@ -220,6 +220,7 @@ TEST_F(HapticServo, LimitsStiffnessAndForceToTheDevices)
   this->Device->SetDamping(0.0); // unknown
   EXPECT_EQ(this->Servo->Step(0), 0);
   EXPECT_EQ(this->Servo->GetEffectiveStiffness(), 1000.0);
+  EXPECT_EQ(this->Servo->GetStiffnessLimit(), 1000.0) << "whatever is asked for";
   EXPECT_EQ(this->Servo->GetEffectiveMaximumForce(), 3.3);
   ASSERT_EQ(this->Servo->Step(1000), 1000);
   EXPECT_NEAR(this->DeviceForce(), 2.0, 4e-3) << "1000 N/m, 2 mm deep";
