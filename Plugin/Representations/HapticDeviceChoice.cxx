@@ -159,6 +159,13 @@ bool DeviceChoice::MakeStroke(vtkHapticScene* scene)
 
 void DeviceChoice::FollowPath(vtkMatrix4x4* deviceToWorld)
 {
+  if (auto* mouse = vtkMouseHapticDevice::SafeDownCast(this->Chosen))
+  {
+    // It has no place of its own, and what is new is approached from the front.
+    const double* reach = mouse->GetWorkspaceBounds();
+    mouse->Close();
+    mouse->SetTarget(0.5 * (reach[0] + reach[1]), 0.5 * (reach[2] + reach[3]), reach[5]);
+  }
   auto* simulated = vtkSimulatedHapticDevice::SafeDownCast(this->Chosen);
   if (!simulated || !this->Path)
   {

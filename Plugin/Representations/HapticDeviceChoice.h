@@ -35,7 +35,8 @@ public:
   bool MakeStroke(vtkHapticScene* scene);
 
   /// Gives the device its path for a workspace transform, device to world. Closes the device, as
-  /// it reads paths when it opens. Nothing for a device without a path.
+  /// it reads paths when it opens. Takes the hand of a mouse to the front of what it reaches.
+  /// Nothing for a device that somebody moves.
   void FollowPath(vtkMatrix4x4* deviceToWorld);
 
 private:
