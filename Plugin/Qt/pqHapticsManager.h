@@ -1,0 +1,113 @@
+/**
+ * @class   pqHapticsManager
+ * @brief   What panel and toolbar have in common: the scene of the session and its hand.
+ *
+ * There is one hand, so there is one scene proxy (group "haptics", name "HapticScene") a session.
+ * It is made when it is first needed; one that a state file or a script has registered is taken.
+ * This class edits that proxy and never touches VTK objects but to read what the hand feels.
+ *
+ * The scene follows ParaView: its surfaces are the representations of type "Haptic Surface" of its
+ * view, and its view is the active one, where that shows such a surface. The proxy itself sees to
+ * it that the hand is released when the view is closed or the server goes away.
+ *
+ * While the hand is engaged, a device is being opened or a surface is being built, one timer looks
+ * at the scene at most 60 times a second and renders where a picture would differ. At other times
+ * nothing runs. Nothing here waits or runs an event loop. GUI thread.
+ *
+ * Errors: what a user asked for and cannot have is told in a message box; what goes wrong later is
+ * in ParaView's output window and in the panel.
+ */
+#ifndef pqHapticsManager_h
+#define pqHapticsManager_h
+
+#include "vtkWeakPointer.h"
+
+#include <QObject>
+#include <QPointer>
+#include <QString>
+#include <QTimer>
+
+class pqOutputPort;
+class pqView;
+class vtkHapticScene;
+class vtkPVHapticScene;
+class vtkSMProxy;
+
+class pqHapticsManager : public QObject
+{
+  Q_OBJECT
+  using Superclass = QObject;
+
+public:
+  /** The one of this application; made by the first call. */
+  static pqHapticsManager* instance();
+  ~pqHapticsManager() override = default;
+
+  /** The scene proxy of the active server; null while there is none. */
+  vtkSMProxy* scene() const;
+  /** The same, made where there is none; null without a server. */
+  vtkSMProxy* makeScene();
+  ///@{
+  /** What the proxy drives, to read from; null where scene() is. */
+  vtkPVHapticScene* clientScene() const;
+  vtkHapticScene* hand() const;
+  ///@}
+
+  /** Whether the hand is engaged, as of the last look at the scene. */
+  bool isEngaged() const { return this->Engaged; }
+
+  /** The device used last, as the proxy names it: "mouse" where there was none. */
+  QString device() const;
+
+  /** Looks at the scene this often at most [1/s]. */
+  static constexpr int MaximumRate = 60;
+
+public Q_SLOTS:
+  /**
+   * Shows the selected sources as Haptic Surface in the active view, fits the workspace to them and
+   * engages the device. Undo takes the change of representation back. Where that is not possible
+   * nothing changes, and a message box tells why.
+   */
+  void touch();
+  /** Engages the hand on what is already a Haptic Surface in the active view, or releases it. */
+  void setEngaged(bool engaged);
+  /** Takes another device, by the name that the proxy has for it; releases the hand first. */
+  void setDevice(const QString& device);
+  /** Maps the device's workspace to the surfaces as the camera sees them. */
+  void fit();
+  /** Runs a command of the scene, then shows what came of it. */
+  void command(const char* property);
+  /** Looks at the scene now. */
+  void poll();
+  /** Tells the user what cannot be done and what to do instead, in a box that waits for nobody. */
+  void complain(const QString& title, const QString& message);
+
+Q_SIGNALS:
+  /** scene() is another one, or none. */
+  void sceneChanged();
+  void engagedChanged(bool engaged);
+  /** What the scene tells may have changed. */
+  void updated();
+
+private:
+  Q_DISABLE_COPY(pqHapticsManager)
+  explicit pqHapticsManager(QObject* parent);
+
+  void adoptScene(vtkSMProxy* proxy);
+  void findScene();
+  void followActiveView();
+  int followSurfaces();
+  void engage(const QString& title, bool anew);
+  bool hasWork() const;
+  void noticeState();
+  void proveAsked();
+  bool show(pqOutputPort* port, pqView* view, QString& problem);
+
+  vtkWeakPointer<vtkSMProxy> Scene;
+  QPointer<pqView> View;
+  QTimer Timer;
+  bool Engaged = false;
+  QString Asked; // title of what the user asked for last, until it is seen to hold
+};
+
+#endif

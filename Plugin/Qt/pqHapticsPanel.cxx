@@ -1,0 +1,348 @@
+#include "pqHapticsPanel.h"
+#include "ui_pqHapticsPanel.h"
+
+#include "LandmarksSource.h"
+#include "pqCoreUtilities.h"
+#include "pqFileDialog.h"
+#include "pqHapticsManager.h"
+#include "pqUndoStack.h"
+#include "vtkCommand.h"
+#include "vtkHapticLandmarks.h"
+#include "vtkHapticScene.h"
+#include "vtkHapticServo.h"
+#include "vtkPVHapticScene.h"
+#include "vtkSMPropertyHelper.h"
+#include "vtkSMProxy.h"
+#include "vtkStringArray.h"
+
+#include <QFileInfo>
+#include <QHeaderView>
+#include <QLocale>
+#include <QScrollArea>
+#include <QSignalBlocker>
+
+#include <algorithm>
+
+namespace
+{
+constexpr int TextInterval = 100;      // [ms]; nobody reads faster
+constexpr double WorkspaceStep = 1.25; // of Finer and Coarser
+constexpr const char* ChooseFile = ""; // the device chooser's entry that asks for a file
+constexpr const char* RecordingFilter = "Haptic recordings (*.hrec);;Paths (*.vtp);;All files (*)";
+
+QString number(double value, int digits)
+{
+  return QLocale::c().toString(value, 'f', digits);
+}
+}
+
+pqHapticsPanel::pqHapticsPanel(QWidget* parent, Qt::WindowFlags flags)
+  : Superclass("Haptics", parent, flags)
+  , Form(new Ui::pqHapticsPanel)
+  , Manager(pqHapticsManager::instance())
+{
+  auto* content = new QWidget;
+  this->Form->setupUi(content);
+  auto* scrolled = new QScrollArea(this);
+  scrolled->setWidgetResizable(true);
+  scrolled->setFrameShape(QFrame::NoFrame);
+  scrolled->setWidget(content);
+  this->setWidget(scrolled);
+
+  this->Form->device->addItem("Mouse", "mouse");
+  this->Form->device->addItem("Simulated stroke", "simulated");
+  this->Form->device->addItem("Novint Falcon", "falcon");
+  this->Form->device->addItem("Recording...", ChooseFile);
+  this->Form->values->horizontalHeader()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
+
+  this->connectSettings();
+  this->connectCommands();
+  this->connect(this->Manager, &pqHapticsManager::sceneChanged, this, &pqHapticsPanel::followScene);
+  this->connect(
+    this->Manager, &pqHapticsManager::engagedChanged, this, &pqHapticsPanel::showSettings);
+  this->connect(this->Manager, &pqHapticsManager::updated, this, &pqHapticsPanel::showReadings);
+  this->followScene();
+}
+
+pqHapticsPanel::~pqHapticsPanel() = default;
+
+void pqHapticsPanel::connectSettings()
+{
+  Ui::pqHapticsPanel& form = *this->Form;
+  // activated() and clicked() tell of the user's hand only, not of what this panel shows.
+  this->connect(
+    form.device, QOverload<int>::of(&QComboBox::activated), this, &pqHapticsPanel::chooseDevice);
+  this->connect(form.stiffness, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
+    [this](double value) { this->set("Haptic Stiffness", "Stiffness", value); });
+  this->connect(form.maximumForce, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
+    [this](double value) { this->set("Largest Haptic Force", "MaximumForce", value); });
+  this->connect(form.clutch, &QAbstractButton::clicked, this,
+    [this](bool on) { this->set("Haptic Clutch", "Clutched", on); });
+  this->connect(form.record, &QAbstractButton::clicked, this, &pqHapticsPanel::record);
+}
+
+void pqHapticsPanel::connectCommands()
+{
+  Ui::pqHapticsPanel& form = *this->Form;
+  pqHapticsManager* manager = this->Manager;
+  this->connect(form.engage, &QAbstractButton::clicked, this,
+    [this, manager](bool on)
+    {
+      manager->setEngaged(on);
+      this->showSettings();
+    });
+  const auto command = [this, manager](QAbstractButton* button, const char* name)
+  {
+    this->connect(
+      button, &QAbstractButton::clicked, manager, [manager, name] { manager->command(name); });
+  };
+  command(form.fit, "Fit");
+  command(form.cancelBuild, "CancelBuild");
+  command(form.dropLandmark, "DropLandmark");
+  command(form.removeLandmark, "RemoveLastLandmark");
+  command(form.clearLandmarks, "ClearLandmarks");
+  this->connect(
+    form.smaller, &QAbstractButton::clicked, this, [this] { this->scale(1.0 / WorkspaceStep); });
+  this->connect(
+    form.larger, &QAbstractButton::clicked, this, [this] { this->scale(WorkspaceStep); });
+  this->connect(
+    form.exportLandmarks, &QAbstractButton::clicked, this, &pqHapticsPanel::exportLandmarks);
+}
+
+void pqHapticsPanel::followScene()
+{
+  if (vtkSMProxy* scene = this->Manager->scene())
+  {
+    pqCoreUtilities::connect(scene, vtkCommand::PropertyModifiedEvent, this, SLOT(showSettings()));
+  }
+  this->showSettings();
+  this->showReadings();
+}
+
+void pqHapticsPanel::set(const char* what, const char* property, double value)
+{
+  if (vtkSMProxy* scene = this->Manager->makeScene())
+  {
+    SCOPED_UNDO_SET(what);
+    vtkSMPropertyHelper(scene, property).Set(value);
+    scene->UpdateVTKObjects();
+    this->Manager->poll();
+  }
+}
+
+void pqHapticsPanel::scale(double factor)
+{
+  if (vtkSMProxy* scene = this->Manager->scene())
+  {
+    vtkSMPropertyHelper(scene, "ScaleWorkspace").Set(factor);
+    scene->UpdateProperty("ScaleWorkspace", 1); // even if it is the same factor again
+    this->Manager->poll();
+  }
+}
+
+void pqHapticsPanel::chooseDevice(int index)
+{
+  const QString name = this->Form->device->itemData(index).toString();
+  if (name == ChooseFile)
+  {
+    this->chooseRecording();
+  }
+  else
+  {
+    this->Manager->setDevice(name);
+  }
+}
+
+/// The hand is at the client, so its files are.
+void pqHapticsPanel::chooseRecording()
+{
+  auto* dialog = new pqFileDialog(nullptr, pqCoreUtilities::mainWidget(), "Play a Haptic Recording",
+    QString(), RecordingFilter, false);
+  dialog->setObjectName("HapticRecordingDialog");
+  dialog->setFileMode(pqFileDialog::ExistingFile);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  this->connect(dialog, &QDialog::accepted, this,
+    [this, dialog]
+    {
+      this->Manager->setDevice(dialog->getSelectedFiles().value(0));
+      this->showSettings();
+    });
+  this->connect(dialog, &QDialog::rejected, this, &pqHapticsPanel::showSettings);
+  dialog->open();
+}
+
+void pqHapticsPanel::record(bool on)
+{
+  vtkSMProxy* scene = this->Manager->makeScene();
+  if (!scene)
+  {
+    this->showSettings();
+    return;
+  }
+  if (!on)
+  {
+    this->setRecording(QString());
+    return;
+  }
+  auto* dialog = new pqFileDialog(nullptr, pqCoreUtilities::mainWidget(),
+    "Record What the Hand Does", QString(), RecordingFilter, false);
+  dialog->setObjectName("HapticRecorderDialog");
+  dialog->setFileMode(pqFileDialog::AnyFile);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  this->connect(dialog, &QDialog::accepted, this,
+    [this, dialog] { this->setRecording(dialog->getSelectedFiles().value(0)); });
+  this->connect(dialog, &QDialog::rejected, this, &pqHapticsPanel::showSettings);
+  dialog->open();
+}
+
+void pqHapticsPanel::setRecording(const QString& file)
+{
+  if (vtkSMProxy* scene = this->Manager->scene())
+  {
+    SCOPED_UNDO_SET("Haptic Recorder");
+    vtkSMPropertyHelper(scene, "RecordingFileName").Set(file.toUtf8().data());
+    scene->UpdateVTKObjects();
+  }
+  this->showSettings();
+}
+
+void pqHapticsPanel::showSettings()
+{
+  Ui::pqHapticsPanel& form = *this->Form;
+  this->showDevice();
+  form.engage->setChecked(this->Manager->isEngaged());
+  form.engage->setText(this->Manager->isEngaged() ? "Release" : "Engage");
+  vtkSMProxy* scene = this->Manager->scene();
+  for (QWidget* needsScene :
+    { static_cast<QWidget*>(form.workspaceGroup), static_cast<QWidget*>(form.landmarksGroup) })
+  {
+    needsScene->setEnabled(scene != nullptr);
+  }
+  QString file;
+  if (scene)
+  {
+    const QSignalBlocker stiffness(form.stiffness);
+    const QSignalBlocker force(form.maximumForce);
+    form.stiffness->setValue(vtkSMPropertyHelper(scene, "Stiffness").GetAsDouble());
+    form.maximumForce->setValue(vtkSMPropertyHelper(scene, "MaximumForce").GetAsDouble());
+    form.clutch->setChecked(vtkSMPropertyHelper(scene, "Clutched").GetAsInt() != 0);
+    file = vtkSMPropertyHelper(scene, "RecordingFileName").GetAsString();
+  }
+  form.record->setChecked(!file.isEmpty());
+  form.recording->setText(file.isEmpty() ? "no file" : QFileInfo(file).fileName());
+  form.recording->setToolTip(file);
+}
+
+void pqHapticsPanel::showDevice()
+{
+  QComboBox* chooser = this->Form->device;
+  const QString device = this->Manager->device();
+  int index = chooser->findData(device);
+  if (index < 0)
+  {
+    index = chooser->count() - 1; // before the entry that asks for a file
+    chooser->insertItem(index, QFileInfo(device).fileName(), device);
+  }
+  chooser->setCurrentIndex(index);
+}
+
+void pqHapticsPanel::showReadings()
+{
+  this->showForce();
+  this->showBuilding();
+  const bool engaged = this->Manager->isEngaged();
+  if (!engaged || !this->LastText.isValid() || this->LastText.elapsed() >= TextInterval)
+  {
+    this->LastText.start();
+    this->showText();
+    this->showContact();
+  }
+}
+
+void pqHapticsPanel::showForce()
+{
+  QProgressBar* bar = this->Form->force;
+  vtkPVHapticScene* scene = this->Manager->clientScene();
+  const double force = scene ? scene->GetForceMagnitude() : 0.0;
+  const double most = scene ? scene->GetScene()->GetServo()->GetEffectiveMaximumForce() : 0.0;
+  const double share = most > 0.0 ? std::min(force / most, 1.0) : 0.0;
+  bar->setValue(static_cast<int>(share * bar->maximum()));
+  bar->setFormat(number(force, 2) + " N of " + number(most, 1) + " N");
+}
+
+void pqHapticsPanel::showBuilding()
+{
+  vtkPVHapticScene* scene = this->Manager->clientScene();
+  this->Form->building->setVisible(scene && scene->GetBuilding());
+  if (scene && scene->GetBuilding())
+  {
+    this->Form->buildProgress->setValue(static_cast<int>(100.0 * scene->GetBuildProgress()));
+  }
+}
+
+void pqHapticsPanel::showText()
+{
+  Ui::pqHapticsPanel& form = *this->Form;
+  vtkPVHapticScene* scene = this->Manager->clientScene();
+  if (!scene)
+  {
+    form.state->setText("Nothing is touched yet. Select a source and press Touch.");
+    form.safeStiffness->clear();
+    form.servo->clear();
+    return;
+  }
+  const QString message = scene->GetMessage();
+  form.state->setText(message.isEmpty() ? QString(scene->GetState()) : message);
+
+  vtkHapticServo* servo = scene->GetScene()->GetServo();
+  const double limit = servo->GetStiffnessLimit();
+  form.safeStiffness->setText(limit < VTK_DOUBLE_MAX
+      ? "in force " + number(scene->GetEffectiveStiffness(), 0) + " N/m; safe up to " +
+        number(limit, 0) + " N/m"
+      : "in force " + number(scene->GetEffectiveStiffness(), 0) + " N/m");
+  form.servo->setText(servo->GetNumberOfTicks() == 0 ? QString("not run yet")
+                                                     : number(servo->GetMeasuredRate(), 0) +
+        " Hz, longest gap " + number(1000.0 * servo->GetMaximumPeriod(), 1) + " ms, " +
+        QString::number(servo->GetNumberOfMissedTicks()) + " of " +
+        QString::number(servo->GetNumberOfTicks()) + " ticks missed");
+}
+
+void pqHapticsPanel::showContact()
+{
+  Ui::pqHapticsPanel& form = *this->Form;
+  vtkPVHapticScene* scene = this->Manager->clientScene();
+  const bool touching = scene && scene->GetTouching();
+  const int landmarks = scene ? scene->GetNumberOfLandmarks() : 0;
+  form.contact->setText(touching ? "cell " + QString::number(scene->GetTouchedCell()) + ", " +
+        QString::number(scene->GetPenetration(), 'g', 3) + " below the surface"
+                                 : QString("free space"));
+  vtkStringArray* values = touching ? scene->GetProbedValues() : nullptr;
+  const int rows = values ? static_cast<int>(values->GetNumberOfValues() / 2) : 0;
+  form.values->setRowCount(rows);
+  for (int row = 0; row < rows; ++row)
+  {
+    for (int column = 0; column < 2; ++column)
+    {
+      if (!form.values->item(row, column))
+      {
+        form.values->setItem(row, column, new QTableWidgetItem);
+      }
+      form.values->item(row, column)
+        ->setText(QString::fromStdString(values->GetValue(2 * row + column)));
+    }
+  }
+  form.landmarksGroup->setTitle(
+    landmarks > 0 ? "Landmarks (" + QString::number(landmarks) + ")" : QString("Landmarks"));
+  form.dropLandmark->setEnabled(touching);
+  form.removeLandmark->setEnabled(landmarks > 0);
+  form.clearLandmarks->setEnabled(landmarks > 0);
+  form.exportLandmarks->setEnabled(landmarks > 0);
+}
+
+void pqHapticsPanel::exportLandmarks()
+{
+  if (vtkHapticScene* hand = this->Manager->hand())
+  {
+    haptics::MakeLandmarksSource(hand->GetLandmarks()->GetOutput());
+  }
+}
