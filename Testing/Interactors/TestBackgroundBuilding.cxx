@@ -123,7 +123,8 @@ TEST_F(BackgroundBuilding, StepWaitsSoThatItGivesTheSameAsBuildingAtOnce)
   this->Scene->Step(10);
   this->Show(MakeBall(64, 0.001));
   this->Scene->Step(10);
-  EXPECT_EQ(this->Scene->GetForce()[2], background);
+  // Contact goes on from what was touched before, which leaves its rounding.
+  EXPECT_NEAR(this->Scene->GetForce()[2], background, 1e-9);
 }
 
 TEST_F(BackgroundBuilding, TheNewestGeometryWinsAndThoseBetweenAreLeftOut)
