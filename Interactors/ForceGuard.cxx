@@ -98,14 +98,15 @@ Vec3 ForceGuard::Force(
   this->WasPaused = settings.Paused;
 
   force = this->LimitSlew(force, contact.Period, model.MaximumForce, settings);
-  this->Passivity.Sent(force);
+  this->Passivity.Sent(force, contact.SurfaceStep);
   this->Last = force;
   return force;
 }
 
 Vec3 ForceGuard::Damping(const GuardedContact& contact, const SafetySettings& settings) noexcept
 {
-  const Vec3 step = Sum(contact.Position, -1.0, this->LastPosition);
+  // Against the surface, which may move.
+  const Vec3 step = Sum(Sum(contact.Position, -1.0, this->LastPosition), -1.0, contact.SurfaceStep);
   const bool knowsSpeed = this->HasPosition && contact.Period > 0.0;
   this->LastPosition = contact.Position;
   this->HasPosition = true;

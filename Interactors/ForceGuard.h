@@ -19,6 +19,8 @@ struct GuardedContact
   Vec3 Displacement{}; ///< of the god-object from the HIP [m]
   bool Touching = false;
   double Period = 0.0; ///< since the last tick [s]
+  /// How far surfaces that move have taken the god-object along since the last tick [m].
+  Vec3 SurfaceStep{};
 };
 
 /// @brief From a contact to the force that a hand may be given. Servo thread.

@@ -39,4 +39,13 @@ Vec3 PassivityController::Update(const Vec3& position, double period, double dev
   const double damping = std::min(-this->Energy / (period * squaredSpeed), largestDamping);
   return { -damping * velocity[0], -damping * velocity[1], -damping * velocity[2] };
 }
+
+void PassivityController::Sent(const Vec3& force, const Vec3& surfaceStep) noexcept
+{
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    this->Energy += 0.5 * (this->Force[i] + force[i]) * surfaceStep[i];
+  }
+  this->Force = force;
+}
 }

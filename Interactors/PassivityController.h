@@ -13,6 +13,10 @@ namespace haptics
 /// device's own damping b another b v^2 T. While the balance is negative the controller adds
 /// -alpha v, alpha = -E / (T v^2), bounded by what a device can damp without shaking.
 ///
+/// A surface that moves does work of its own: the force, in the mean over the tick, times the way
+/// that it took the god-object. What the servo passes on of that it has not made. With the mean a
+/// spring's account is exact: a surface that goes out and back under a hand at rest leaves nothing.
+///
 /// A balance that is positive where the hand lets go of the surface is forgotten: it is no credit
 /// for the next contact. Device frame. Servo thread.
 class VTKHAPTICSINTERACTORS_EXPORT PassivityController
@@ -23,8 +27,9 @@ public:
   /// `period` [s], `deviceDamping` [N s/m], `largestDamping` [N s/m], `touching`: now.
   Vec3 Update(const Vec3& position, double period, double deviceDamping, double largestDamping,
     bool touching) noexcept;
-  /// Tells which force was asked for in the end [N].
-  void Sent(const Vec3& force) noexcept { this->Force = force; }
+  /// Tells which force was asked for in the end [N], and how far surfaces took the god-object along
+  /// since the last tick [m].
+  void Sent(const Vec3& force, const Vec3& surfaceStep) noexcept;
   /// The balance [J]: negative where the servo has made energy.
   double GetEnergy() const noexcept { return this->Energy; }
 

@@ -88,6 +88,7 @@ bool ServoCycle::Tick(double time) noexcept
   {
     guarded.Displacement = settings.DeviceToWorld.VectorToDevice(contact.Displacement);
     guarded.Touching = contact.NumberOfConstraints > 0;
+    guarded.SurfaceStep = settings.DeviceToWorld.VectorToDevice(contact.Carried);
     if (!IsFinite(guarded.Displacement))
     {
       this->End(ServoState::InvalidForce);
