@@ -8,6 +8,7 @@
 #include "vtkMouseHapticDevice.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
+#include "vtkRecordedHapticDevice.h"
 #include "vtkRenderWindow.h"
 
 #include <algorithm>
@@ -254,6 +255,13 @@ bool vtkPVHapticScene::ChooseDevice()
     this->Fail(error);
     return false;
   }
+  // Only an open recording knows how far its device reached.
+  if (vtkRecordedHapticDevice::SafeDownCast(self.Choice.Device()) && !self.Choice.Device()->Open())
+  {
+    this->Fail(self.Choice.Device()->GetErrorMessage());
+    self.Choice = haptics::DeviceChoice();
+    return false;
+  }
   self.Scene->SetDevice(self.Choice.Device());
   self.PathIsKnown = false;
   if (auto* mouse = vtkMouseHapticDevice::SafeDownCast(self.Choice.Device()))
@@ -293,6 +301,7 @@ bool vtkPVHapticScene::ChoosePath()
                "camera to one.");
     return false;
   }
+  self.Scene->GetServo()->Stop(); // in virtual time too: the device is opened anew
   self.Choice.FollowPath(self.Scene->GetWorkspaceTransform());
   self.PathIsKnown = true;
   return true;
@@ -435,7 +444,7 @@ void vtkPVHapticScene::Step(int ticks)
   this->SyncSurfaces();
   scene->BackgroundBuildingOff(); // virtual time waits for what is to be touched
   scene->Update();
-  if (this->Prepare() && scene->Step(ticks) < ticks)
+  if (this->Prepare() && scene->Step(ticks) < std::max(ticks, 1))
   {
     this->Internal->Message = scene->GetErrorMessage();
   }

@@ -2,10 +2,12 @@
 #include "vtkPVHapticScene.h"
 
 #include "PVHapticSceneInternals.h"
+#include "vtkBoundingBox.h"
 #include "vtkCamera.h"
 #include "vtkHapticLandmarks.h"
 #include "vtkHapticOverlay.h"
 #include "vtkHapticServo.h"
+#include "vtkMapper.h"
 #include "vtkMatrix4x4.h"
 #include "vtkPolyData.h"
 
@@ -60,18 +62,32 @@ bool vtkPVHapticScene::Fit()
     return false;
   }
   this->SyncSurfaces();
-  vtkCamera* camera = self.View->GetActiveCamera();
+  // By what is shown, which may still be built beside.
+  vtkBoundingBox box;
+  for (const Internals::Surface& surface : self.Surfaces)
+  {
+    auto* shown = surface.Actor && surface.Actor->GetVisibility()
+      ? vtkPolyData::SafeDownCast(surface.Actor->GetMapper()->GetInputAsDataSet())
+      : nullptr;
+    if (shown && shown->GetNumberOfPolys() > 0)
+    {
+      box.AddBounds(surface.Actor->GetBounds());
+    }
+  }
   vtkPolyData* path = self.Choice.WorldPath();
-  double bounds[6] = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
   if (path && !self.Choice.Strokes())
   {
-    path->GetBounds(bounds);
-    self.Fitted = self.Scene->FitWorkspace(bounds, camera);
+    box.SetBounds(path->GetBounds());
   }
-  else
+  if (!box.IsValid())
   {
-    self.Fitted = self.Scene->FitWorkspace(camera);
+    this->Fail("The device's workspace fits nothing: no surface is shown as Haptic Surface, or it "
+               "has no faces. Show a source with a surface, and render.");
+    return false;
   }
+  double bounds[6];
+  box.GetBounds(bounds);
+  self.Fitted = self.Scene->FitWorkspace(bounds, self.View->GetActiveCamera());
   if (!self.Fitted)
   {
     self.Message = self.Scene->GetErrorMessage();

@@ -1,80 +1,226 @@
-"""Touches what a render view shows, through the scene's proxy, in virtual time."""
+"""Touches what a render view shows, in virtual time: what can be touched, and what follows."""
 
-import sys
-import unittest
+import math
+import time
 
-from paraview import servermanager, simple
-
-PLUGIN = sys.argv.pop()
-
-
-def scene_over(view, *representations, **properties):
-    proxy = servermanager.ProxyManager().NewProxy("haptics", "HapticScene")
-    scene = servermanager._getPyProxy(proxy)
-    scene.View = view
-    scene.Surfaces = list(representations)
-    for name, value in properties.items():
-        setattr(scene, name, value)
-    scene.UpdateVTKObjects()
-    return scene
+import numpy as np
+from HapticSceneTesting import SceneTest, haptics, look_at, main, trace_arrays, write_path
+from paraview import simple
 
 
-def step(scene, ticks):
-    scene.Step = ticks
-    scene.SMProxy.UpdateProperty("Step", 1)
-    scene.UpdatePropertyInformation()
-
-
-class TestHapticScene(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        simple.LoadPlugin(PLUGIN, remote=False, ns=vars(simple))
-
-    def setUp(self):
-        self.view = simple.CreateView("RenderView")
-        self.view.ViewSize = [300, 200]
-        self.source = simple.Sphere(Radius=2.0, ThetaResolution=48, PhiResolution=48)
-        self.shown = simple.Show(self.source, self.view)
-        self.shown.Representation = "Haptic Surface"
-        simple.Render(self.view)
-        self.scene = scene_over(self.view, self.shown, Device="simulated")
-
-    def tearDown(self):
-        self.scene.Engaged = 0
-        self.scene = None
-        simple.Delete(self.source)
-        simple.Delete(self.view)
-
+class TestHapticScene(SceneTest):
     def test_a_simulated_hand_strokes_what_is_shown(self):
-        step(self.scene, 1500)
-        self.assertEqual(self.scene.Message, "")
-        self.assertEqual((self.scene.Touching, self.scene.TouchedRepresentation), (1, 0))
-        self.assertGreater(self.scene.ForceMagnitude, 0.5)
-        radius = sum(x * x for x in self.scene.GodObject) ** 0.5
+        self.touch(self.make("Sphere", Radius=2.0, ThetaResolution=48, PhiResolution=48))
+        self.hand.step(1500)
+        self.assertEqual((self.hand.Touching, self.hand.TouchedRepresentation), (1, 0))
+        self.assertEqual(self.hand.State, "Released")  # no device is engaged in virtual time
+        self.assertGreater(self.hand.ForceMagnitude, 0.5)
+        self.assertLessEqual(self.hand.ForceMagnitude, 3.3 + 1e-12)
+        radius = math.dist(self.hand.GodObject, (0.0, 0.0, 0.0))
         self.assertAlmostEqual(radius, 2.0, delta=0.01)  # facets lie up to 4 mm inside the sphere
+        self.assertIn("Normals", list(self.hand.ProbedValues))
+        self.assertGreaterEqual(self.hand.TouchedCell, 0)
 
     def test_what_is_hidden_or_shown_otherwise_is_not_touched(self):
-        step(self.scene, 1500)
-        self.assertEqual(self.scene.Touching, 1)
+        display = self.touch(self.make("Sphere"))
+        self.hand.step(1500)
+        self.assertEqual(self.hand.Touching, 1)
         for name, no, yes in (
             ("Visibility", 0, 1),
             ("Representation", "Wireframe", "Haptic Surface"),
         ):
-            setattr(self.shown, name, no)
+            setattr(display, name, no)
             simple.Render(self.view)
-            step(self.scene, 10)
-            self.assertEqual((self.scene.Touching, self.scene.ForceMagnitude), (0, 0.0))
-            setattr(self.shown, name, yes)
+            self.hand.step(10)
+            self.assertEqual((self.hand.Touching, self.hand.ForceMagnitude), (0, 0.0), name)
+            setattr(display, name, yes)
             simple.Render(self.view)
-            step(self.scene, 10)
-            self.assertEqual(self.scene.NumberOfTouchableSurfaces, 1)
+            self.hand.step(10)
+            self.assertEqual(self.hand.NumberOfTouchableSurfaces, 1, name)
 
-    def test_landmarks_are_dropped_where_the_hand_touches(self):
-        step(self.scene, 1500)
-        self.scene.InvokeCommand("DropLandmark")
-        self.scene.UpdatePropertyInformation()
-        self.assertEqual(self.scene.NumberOfLandmarks, 1)
+    def test_every_kind_of_data_whose_outside_is_a_surface_is_touched(self):
+        sphere = self.make("Sphere")
+        wavelet = self.make("Wavelet", WholeExtent=[-5, 5, -5, 5, -5, 5])
+        kinds = {
+            "image": wavelet,
+            "unstructured grid": self.make("Clip", Input=wavelet, ClipType="Plane"),
+            "structured grid": self.make("Transform", Input=wavelet),
+            "multiblock": self.make("GroupDatasets", Input=[sphere, self.make("Cone")]),
+            "partitioned": self.make("GroupDatasets", Input=[sphere, self.make("Box")],
+                                     OutputType="vtkPartitionedDataSetCollection"),
+        }
+        for name, source in kinds.items():
+            with self.subTest(name):
+                self.hand.set(Surfaces=[], RecordTrace=0)
+                self.touch(source)
+                self.hand.fit()
+                self.hand.RecordTrace = 1
+                self.hand.step(2000)
+                self.assertEqual(self.hand.NumberOfTouchableSurfaces, 1)
+                self.assertGreater((trace_arrays(self.hand)["ActiveConstraints"] > 0).sum(), 500)
+                surface = self.touched_surface()
+                self.assertEqual(surface.GetFieldData().GetArray("BoundaryEdges").GetValue(0), 0)
+
+    def test_the_touch_follows_transforms_and_filters_upstream(self):
+        source = self.make("Sphere", ThetaResolution=40, PhiResolution=40)
+        display = self.touch(source)
+        self.hand.RecordTrace = 1
+        self.hand.step(2000)
+
+        def largest_reach(center, scale):
+            simple.Render(self.view)
+            self.hand.RecordTrace = 0
+            self.hand.RecordTrace = 1
+            self.hand.fit()
+            self.hand.step(2000)
+            arrays = trace_arrays(self.hand)
+            touching = arrays["ActiveConstraints"] > 0
+            self.assertGreater(touching.sum(), 500)
+            return np.linalg.norm((arrays["GodObject"][touching] - center) / scale, axis=1)
+
+        # Facets lie up to 0.002 within the sphere of radius 0.5.
+        display.Position = [10.0, 0.0, 0.0]
+        look_at(self.view)
+        self.assertLess(abs(largest_reach([10.0, 0.0, 0.0], 1.0) - 0.5).max(), 0.003)
+        display.Scale = [2.0, 3.0, 4.0]
+        look_at(self.view)
+        reach = largest_reach([10.0, 0.0, 0.0], [2.0, 3.0, 4.0])
+        self.assertLess(abs(reach - 0.5).max(), 0.003)
+        source.Radius = 1.0
+        look_at(self.view)
+        reach = largest_reach([10.0, 0.0, 0.0], [2.0, 3.0, 4.0])
+        self.assertLess(abs(reach - 1.0).max(), 0.006)
+        display.Position = [0.0, 0.0, 0.0]
+        display.Scale = [1.0, 1.0, 1.0]
+        if hasattr(display, "UserTransform"):
+            display.UserTransform = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 5, 0, 0, 0, 1]
+            look_at(self.view)
+            self.assertLess(abs(largest_reach([0.0, 0.0, 5.0], 1.0) - 1.0).max(), 0.006)
+
+    def test_an_animation_changes_what_is_touched(self):
+        source = self.make("ProgrammableSource", OutputDataSetType="vtkPolyData")
+        source.ScriptRequestInformation = """
+executive = self.GetExecutive()
+information = executive.GetOutputInformation(0)
+information.Set(executive.TIME_STEPS(), [0.0, 1.0, 2.0], 3)
+information.Set(executive.TIME_RANGE(), [0.0, 2.0], 2)"""
+        source.Script = """
+from vtkmodules.vtkFiltersSources import vtkSphereSource
+executive = self.GetExecutive()
+sphere = vtkSphereSource()
+sphere.SetThetaResolution(40)
+sphere.SetPhiResolution(40)
+sphere.SetRadius(1.0 + 0.1 * executive.GetOutputInformation(0).Get(executive.UPDATE_TIME_STEP()))
+sphere.Update()
+self.GetOutput().ShallowCopy(sphere.GetOutput())"""
+        source.UpdatePipelineInformation()
+        simple.GetAnimationScene().UpdateAnimationUsingDataTimeSteps()
+        self.touch(source)
+        times = simple.GetAnimationScene()
+        for now in (0.0, 2.0, 1.0, 0.0):  # a time seen before comes out of ParaView's cache
+            times.AnimationTime = now
+            simple.Render(self.view)
+            self.hand.fit()  # and the stroke starts anew
+            self.hand.step(1500)
+            self.assertEqual(self.hand.Touching, 1, f"time {now}")
+            radius = math.dist(self.hand.GodObject, (0.0, 0.0, 0.0))
+            self.assertAlmostEqual(radius, 1.0 + 0.1 * now, delta=0.006, msg=f"time {now}")
+
+    def test_both_sides_are_felt_where_that_is_asked_for(self):
+        sphere = self.make("Sphere", ThetaResolution=32, PhiResolution=32)
+        self.touch(sphere)
+        inside = self.make("Line", Point1=[0.0, 0.0, 0.0], Point2=[0.0, 0.1, 0.7], Resolution=100)
+        line = simple.servermanager.Fetch(inside)
+        file = "TestHapticScene_inside.vtp"
+        from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+        writer = vtkXMLPolyDataWriter()
+        writer.SetDataModeToBinary()
+        writer.SetInputData(line)
+        writer.SetFileName(file)
+        writer.Write()
+        for side, touching in (("Front", 0), ("Both", 1)):
+            self.hand.set(Device="none")
+            self.hand.set(Device=file, Side=side)
+            self.hand.step(12000)
+            self.assertEqual(self.hand.Touching, touching, side)
+
+    def test_the_same_path_gives_the_same_trace(self):
+        self.touch(self.make("Sphere", ThetaResolution=32, PhiResolution=32))
+        self.hand.RecordTrace = 1
+        self.hand.step(1500)
+        write_path(self.hand, "TestHapticScene_path.vtp")
+        felt = []
+        for _ in range(2):
+            self.hand.set(Device="none")
+            self.hand.set(Device="TestHapticScene_path.vtp", RecordTrace=0)
+            self.hand.RecordTrace = 1
+            self.hand.step(1500)
+            felt.append(trace_arrays(self.hand))
+        self.assertGreater((felt[0]["ActiveConstraints"] > 0).sum(), 500)
+        for name in felt[0]:
+            np.testing.assert_array_equal(felt[0][name], felt[1][name], name)
+
+    def test_landmarks_and_trace_become_sources(self):
+        self.touch(self.make("Sphere"))
+        self.hand.RecordTrace = 1
+        self.hand.step(1500)
+        self.hand.drop_landmark()
+        self.hand.step(300)
+        self.hand.drop_landmark()
+        self.assertEqual(self.hand.NumberOfLandmarks, 2)
+        landmarks, trace = self.hand.landmark_source(), self.hand.trace_source()
+        self.made += [landmarks, trace]
+        landmarks.UpdatePipeline()
+        trace.UpdatePipeline()
+        self.assertEqual(landmarks.GetDataInformation().GetNumberOfPoints(), 2)
+        self.assertEqual(trace.GetDataInformation().GetNumberOfPoints(), 1800)
+        self.assertIn("Force", trace.PointData.keys())
+        self.hand.proxy.InvokeCommand("RemoveLastLandmark")
+        self.assertEqual(self.hand.NumberOfLandmarks, 1)
+        self.hand.proxy.InvokeCommand("ClearLandmarks")
+        self.assertEqual(self.hand.NumberOfLandmarks, 0)
+
+    def test_in_free_space_no_landmark_is_dropped(self):
+        self.touch(self.make("Sphere"))
+        self.hand.step(10)
+        with self.assertRaisesRegex(haptics.HapticsError, "nothing is touched"):
+            self.hand.drop_landmark()
+
+    def test_the_hand_is_seen(self):
+        from vtkmodules.util.numpy_support import vtk_to_numpy
+        from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
+
+        self.touch(self.make("Sphere", ThetaResolution=48, PhiResolution=48))
+
+        def picture():
+            simple.Render(self.view)
+            window = self.view.GetClientSideObject().GetRenderWindow()
+            grab = vtkWindowToImageFilter()
+            grab.SetInput(window)
+            grab.ReadFrontBufferOff()
+            grab.Update()
+            return np.array(vtk_to_numpy(grab.GetOutput().GetPointData().GetScalars()), dtype=int)
+
+        self.hand.set(ShowForce=0)
+        before = picture()
+        self.hand.step(1500)
+        changed = (abs(picture() - before).max(axis=1) > 40).sum()
+        self.assertGreater(changed, 25)  # god-object, arrow: a per cent of the picture
+        self.assertLess(changed, 3000)
+
+    def test_engaged_the_servo_runs_and_releases(self):
+        self.touch(self.make("Sphere"))
+        self.hand.engage()
+        self.assertEqual(self.hand.EngagedInfo, 1)
+        end = time.monotonic() + 20.0
+        while not self.hand.Touching and time.monotonic() < end:
+            time.sleep(0.01)
+            self.hand.update()
+        self.assertEqual((self.hand.Touching, self.hand.State), (1, "Engaged, touching"))
+        self.assertGreater(self.hand.Rate, 100.0)
+        self.hand.release()
+        self.assertEqual((self.hand.ForceMagnitude, self.hand.State), (0.0, "Released"))
 
 
 if __name__ == "__main__":
-    unittest.main(verbosity=2)
+    main()

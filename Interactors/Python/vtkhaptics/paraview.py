@@ -67,7 +67,9 @@ class Scene:
         prop = self.proxy.SMProxy.GetProperty(name)
         if not prop:
             raise AttributeError(f"a haptic scene has no {name}")
-        if prop.GetInformationOnly():
+        if name == "WorkspaceTransform":
+            self.proxy.SMProxy.UpdatePropertyInformation()  # fitting and the clutch change it
+        elif prop.GetInformationOnly():
             self.proxy.SMProxy.UpdatePropertyInformation(prop)
         return getattr(self.proxy, name)
 
@@ -118,10 +120,13 @@ class Scene:
         return display
 
     def touch_only(self, *displays):
-        """Touches these representations and nothing else."""
+        """Touches these representations, of one view, and nothing else."""
+        view = simple.LocateView(displays[0]) if displays else None
+        if view and self.View != view:
+            self.set(View=view)
         self.set(Surfaces=list(displays))
-        if self.View:
-            simple.Render(self.View)  # which brings the triangles to the client
+        if view:
+            simple.Render(view)  # which brings the triangles to the client
 
     def engage(self):
         """Starts the servo in real time. Raises HapticsError where it cannot.
@@ -157,7 +162,7 @@ class Scene:
     def fit(self):
         """Maps what the device reaches to the surfaces, as the view sees them."""
         self.proxy.InvokeCommand("Fit")
-        if self.Message:
+        if not any(self.WorkspaceTransform):
             raise HapticsError(self.Message)
 
     def drop_landmark(self):

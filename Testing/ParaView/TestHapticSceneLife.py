@@ -1,0 +1,200 @@
+"""What a haptic scene outlives, what it refuses, and what comes back from states."""
+
+import os
+import subprocess
+
+import numpy as np
+from HapticSceneTesting import PLUGIN, PVPYTHON, SceneTest, haptics, main, trace_arrays
+from paraview import simple
+
+class TestHapticSceneLife(SceneTest):
+    def engage(self):
+        display = self.touch(self.make("Sphere"))
+        self.hand.engage()
+        self.assertEqual(self.hand.EngagedInfo, 1)
+        return display
+
+    def reset(self):
+        """Another session, with nothing in it."""
+        self.made = []
+        self.view = self.hand = None
+        simple.ResetSession()
+
+    def assert_released(self, message):
+        self.assertRegex(self.hand.Message, message)
+        self.assertEqual((self.hand.EngagedInfo, self.hand.ForceMagnitude), (0, 0.0))
+
+    def test_a_source_deleted_while_touched_releases(self):
+        self.engage()
+        simple.Delete(self.made.pop())
+        self.assert_released("no longer there.*released")
+        self.assertEqual(len(self.hand.Surfaces), 0)
+        simple.Render(self.view)
+
+    def test_one_of_two_sources_deleted_leaves_the_other(self):
+        self.engage()
+        cone = simple.Cone()
+        self.touch(cone)
+        simple.Delete(cone)
+        self.assertEqual((self.hand.EngagedInfo, len(self.hand.Surfaces)), (1, 1))
+
+    def test_a_view_closed_while_engaged_releases(self):
+        other = simple.CreateView("RenderView")
+        sphere = self.make("Sphere")
+        self.hand.touch(sphere, other)
+        self.hand.engage()
+        simple.Delete(other)
+        del other
+        self.assert_released("released")
+        self.assertIsNone(self.hand.View)
+        with self.assertRaisesRegex(haptics.HapticsError, "no render view"):
+            self.hand.engage()
+        self.touch(sphere)
+        self.hand.engage()
+
+    def test_another_device_releases(self):
+        self.engage()
+        self.hand.Device = "mouse"
+        self.assertEqual(self.hand.EngagedInfo, 0)
+        self.hand.engage()
+        self.assertEqual(self.hand.State, "Engaged, in free space")
+
+    def test_what_is_no_device_is_refused_in_words(self):
+        self.touch(self.make("Sphere"))
+        for name in ("joystick", "", "/nowhere/recording.hpr"):
+            self.hand.Device = name
+            with self.assertRaisesRegex(haptics.HapticsError, "neither a device"):
+                self.hand.engage()
+            self.assertEqual(self.hand.EngagedInfo, 0)
+        with open("TestHapticSceneLife_broken.vtp", "w") as file:
+            file.write("no polydata")
+        self.hand.Device = "TestHapticSceneLife_broken.vtp"
+        with self.assertRaisesRegex(haptics.HapticsError, "holds no path"):
+            self.hand.step(1)
+        self.hand.Device = PLUGIN  # a file, but no recording
+        with self.assertRaisesRegex(haptics.HapticsError, "recording"):
+            self.hand.step(1)
+        self.assertEqual(self.hand.ForceMagnitude, 0.0)
+
+    def test_a_recording_gives_the_same_forces_again(self):
+        self.touch(self.make("Sphere", ThetaResolution=32, PhiResolution=32))
+        file = os.path.abspath("TestHapticSceneLife.hpr")
+        self.hand.set(RecordingFileName=file, RecordTrace=1)
+        self.hand.step(1500)
+        felt, mapping = trace_arrays(self.hand), list(self.hand.WorkspaceTransform)
+        self.hand.set(RecordingFileName="", Device=file, RecordTrace=0)
+        self.hand.set(RecordTrace=1, WorkspaceTransform=mapping)
+        self.hand.step(1500)
+        again = trace_arrays(self.hand)
+        self.assertGreater((felt["ActiveConstraints"] > 0).sum(), 500)
+        for name in set(felt) - {"Surface"}:
+            np.testing.assert_allclose(felt[name], again[name], rtol=0.0, atol=1e-12, err_msg=name)
+
+    def test_a_falcon_that_is_not_there_is_told(self):
+        self.touch(self.make("Sphere"))
+        self.hand.Device = "falcon"
+        try:
+            self.hand.engage()
+        except haptics.HapticsError as error:
+            self.assertIn("Falcon", str(error))
+        for _ in range(300):
+            if self.hand.Message or self.hand.EngagedInfo:
+                break
+            haptics.time.sleep(0.01)
+            self.hand.update()
+        if self.hand.EngagedInfo:
+            self.skipTest("a Falcon is connected")
+        self.assertIn("Falcon", self.hand.State)
+
+    def test_sources_without_a_surface_are_refused_in_words(self):
+        empty = self.make("Threshold", Input=self.make("Wavelet"), Scalars=["POINTS", "RTData"])
+        empty.LowerThreshold = empty.UpperThreshold = -1e9
+        points = self.make("PointSource", NumberOfPoints=50)
+        for source in (empty, points):
+            self.hand.set(Surfaces=[])
+            self.touch(source)
+            with self.assertRaisesRegex(haptics.HapticsError, "no faces|no polygons|empty"):
+                self.hand.engage()
+            with self.assertRaises(haptics.HapticsError):
+                self.hand.step(10)
+            self.assertEqual((self.hand.EngagedInfo, self.hand.ForceMagnitude), (0, 0.0))
+        self.touch(self.make("Sphere"))  # beside them
+        self.hand.proxy.InvokeCommand("Fit")
+        self.hand.engage()
+
+    def test_a_surface_that_becomes_empty_is_touched_on_as_it_was_and_told(self):
+        wavelet = self.make("Wavelet")
+        contour = self.make("Contour", Input=wavelet, ContourBy=["POINTS", "RTData"],
+                            Isosurfaces=[157.0])
+        self.touch(contour)
+        self.hand.step(100)
+        contour.Isosurfaces = [1e9]
+        simple.Render(self.view)
+        with self.assertRaisesRegex(haptics.HapticsError, "Surface"):
+            self.hand.step(10)
+
+    def test_a_chart_is_no_view_to_touch_in(self):
+        chart = simple.CreateView("XYChartView")
+        self.hand.View = chart
+        self.assertRegex(self.hand.Message, "XYChart.*render view")
+        with self.assertRaises(haptics.HapticsError):
+            self.hand.engage()
+        self.hand.View = None
+        simple.Delete(chart)
+
+    def test_bad_numbers_change_nothing(self):
+        self.touch(self.make("Sphere"))
+        self.hand.step(10)
+        before = list(self.hand.WorkspaceTransform)
+        self.hand.WorkspaceTransform = [1.0, 0, 0, 0, 0, -1.0, 0, 0, 0, 0, 1.0, 0, 0, 0, 0, 1.0]
+        self.assertEqual(list(self.hand.WorkspaceTransform), before)
+        self.hand.ScaleWorkspace = -1.0
+        self.assertEqual(list(self.hand.WorkspaceTransform), before)
+        with self.assertRaisesRegex(haptics.HapticsError, "Step"):
+            self.hand.step(0)
+
+    def test_a_state_brings_the_scene_back_released(self):
+        self.touch(self.make("Sphere", ThetaResolution=32, PhiResolution=32))
+        self.hand.set(Stiffness=321.0, MaximumForce=2.0, Side="Both")
+        self.hand.RecordTrace = 1
+        self.hand.step(1500)
+        felt = trace_arrays(self.hand)
+        mapping = list(self.hand.WorkspaceTransform)
+        self.hand.engage()
+        file = os.path.abspath("TestHapticSceneLife.pvsm")
+        simple.SaveState(file)
+        self.hand.release()
+        self.reset()
+        simple.LoadState(file)
+        hand = haptics.scene()
+        self.assertEqual(hand.EngagedInfo, 0)
+        self.assertEqual((hand.Stiffness, hand.MaximumForce, hand.Side, hand.Device),
+                         (321.0, 2.0, "Both", "simulated"))
+        self.assertEqual(list(hand.WorkspaceTransform), mapping)
+        self.assertEqual(len(hand.Surfaces), 1)
+        simple.Render(hand.View)
+        hand.RecordTrace = 1
+        hand.step(1500)
+        again = trace_arrays(hand)
+        for name in set(felt) - {"Surface"}:  # ids are given anew
+            np.testing.assert_array_equal(felt[name], again[name], name)
+
+    def test_a_process_that_ends_while_engaged_ends_well(self):
+        script = (
+            "import vtkhaptics.paraview as haptics\n"
+            "from paraview import simple\n"
+            f"haptics.load_plugin({PLUGIN!r})\n"
+            "hand = haptics.touch(simple.Sphere(), Device='simulated')\n"
+            "hand.engage()\n"
+            "assert hand.EngagedInfo == 1\n"
+        )
+        with open("TestHapticSceneLife_exit.py", "w") as file:
+            file.write(script)
+        ended = subprocess.run(
+            [PVPYTHON, "--force-offscreen-rendering", file.name], timeout=120,
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+        self.assertEqual(ended.returncode, 0, ended.stdout)
+
+
+if __name__ == "__main__":
+    main()
