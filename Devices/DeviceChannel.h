@@ -4,6 +4,7 @@
 #include "vtkHapticsDevicesModule.h"
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 
 namespace haptics
@@ -48,6 +49,13 @@ public:
     return false;
   }
 
+  ///@{
+  /// Takes the channel for one servo, which is what the calls above rely on, until Unclaim(). False
+  /// where another one has it. Any thread but the servo's.
+  bool Claim() noexcept { return !this->Claimed.exchange(true, std::memory_order_acq_rel); }
+  void Unclaim() noexcept { this->Claimed.store(false, std::memory_order_release); }
+  ///@}
+
   /// A servo begins a run: its time starts at 0 again. GUI thread, before the servo thread starts.
   virtual void Restart() noexcept {}
 
@@ -57,6 +65,9 @@ public:
   virtual void Halt() noexcept {}
   virtual void Resume() noexcept {}
   ///@}
+
+private:
+  std::atomic<bool> Claimed{ false };
 };
 }
 

@@ -11,11 +11,22 @@
 #include "vtkMapper.h"
 #include "vtkPolyData.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace haptics
 {
+namespace
+{
+/// Equal, where a NaN equals itself: a matrix that stays broken has not moved.
+bool IsSame(const Matrix4& a, const Matrix4& b)
+{
+  return std::equal(a.begin(), a.end(), b.begin(),
+    [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); });
+}
+}
+
 HapticSurface::HapticSurface(int id, vtkActor* actor)
   : Identifier(id)
   , Source(actor)
@@ -129,7 +140,7 @@ bool HapticSurface::Pull(const PullSettings& settings, std::string& error)
   const Version version = this->Current();
   const Matrix4 matrix = this->CurrentMatrix();
   const bool isNew = !this->Tried || !(version == this->LastTried);
-  const bool hasMoved = matrix != this->LastMatrix;
+  const bool hasMoved = !IsSame(matrix, this->LastMatrix);
   this->Tried = true;
   this->LastTried = version;
   this->LastMatrix = matrix;

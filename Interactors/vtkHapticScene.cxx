@@ -103,7 +103,7 @@ bool vtkHapticScene::OpenDevice(vtkHapticDevice* device)
 
 void vtkHapticScene::Release()
 {
-  if (this->Engaged)
+  if (this->Engaged || this->Servo->GetState() == vtkHapticServo::Stepping)
   {
     this->Engaged = false;
     this->Servo->Stop();

@@ -220,6 +220,7 @@ bool vtkHapticServo::Update()
   if (state != Running && state != Stepping)
   {
     this->FinishRecording();
+    this->Internal->Unclaim();
   }
   return this->NoticeState(state) || hasTicked;
 }

@@ -28,6 +28,13 @@ bool vtkHapticServo::Begin(int state)
   this->Configure(); // the device's limits may be others since it was opened
   this->Internal->Statistics.Clear();
   std::shared_ptr<haptics::DeviceChannel> channel = this->Device->GetChannel();
+  if (!channel->Claim())
+  {
+    this->Fail("The device is in use by another servo, of another scene or view. Release that one "
+               "first, or give each a device of its own.");
+    return false;
+  }
+  this->Internal->Claimed = channel;
   this->RecordedTicks = 0;
   this->UnrecordedTicks = 0;
   if (!this->RecordingFileName.empty())
@@ -44,6 +51,7 @@ bool vtkHapticServo::Begin(int state)
     std::string error;
     if (!recorder->Start(this->RecordingFileName, header, error))
     {
+      this->Internal->Unclaim();
       this->Fail(error + " Give another RecordingFileName, or an empty one to run without.");
       return false;
     }

@@ -6,6 +6,7 @@ haptics_add_gtest(TestHapticScene
   TestHapticScene.cxx
   TestHapticSceneActors.cxx
   TestHapticSceneAssemblies.cxx
+  TestHapticSceneBadInput.cxx
   TestHapticSceneWorkspace.cxx
   TestSceneEvents.cxx
   LIBRARIES Haptics::Devices Haptics::Filters Haptics::Interactors VTK::FiltersSources

@@ -6,6 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <string>
+#include <thread>
+
 TEST(InteractorStyleHaptic, RendersOnlyWhenSomethingHasChanged)
 {
   Window window;
@@ -120,4 +124,57 @@ TEST(InteractorStyleHaptic, OutlivesItsInteractorAndItsWindow)
   }
   EXPECT_EQ(style->GetTimerId(), 0);
   EXPECT_FALSE(style->UpdateScene());
+}
+
+TEST(InteractorStyleHaptic, AWindowClosedOrDestroyedInContactLeavesNoForce)
+{
+  for (const bool destroyed : { false, true })
+  {
+    vtkSmartPointer<vtkSimulatedHapticDevice> device;
+    {
+      Window window;
+      device = window.Hand.Device;
+      window.Hand.MoveTo(-0.005);
+      ASSERT_TRUE(window.Hand.Scene->GetTouching());
+      window.Hand.Scene->Release();
+      ASSERT_TRUE(window.Hand.Scene->Engage());
+      for (int i = 0; i < 200 && !window.Hand.Scene->GetTouching(); ++i)
+      {
+        window.Hand.Device->SetPosition(0.01, 0.02, i < 20 ? 0.005 : -0.005);
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        window.Timer();
+      }
+      ASSERT_TRUE(window.Hand.Scene->GetTouching());
+      if (!destroyed)
+      {
+        window.Interactor->InvokeEvent(vtkCommand::ExitEvent);
+        EXPECT_FALSE(window.Hand.Scene->IsEngaged());
+        EXPECT_FALSE(window.Hand.Scene->GetTouching());
+      }
+    }
+    double force[3];
+    device->Update();
+    device->GetForce(force);
+    EXPECT_EQ(std::abs(force[0]) + std::abs(force[1]) + std::abs(force[2]), 0.0)
+      << (destroyed ? "destroyed" : "closed");
+  }
+}
+
+TEST(InteractorStyleHaptic, TwoStylesOnOneDeviceAreRefusedWithTheReason)
+{
+  Window first;
+  Window second;
+  second.Hand.Scene->SetDevice(first.Hand.Device);
+  first.Hand.Scene->Release();
+  first.Press('h');
+  ASSERT_TRUE(first.Hand.Scene->IsEngaged());
+  EventCounter errors(second.Hand.Scene->GetServo(), vtkCommand::ErrorEvent);
+  second.Press('h');
+  EXPECT_FALSE(second.Hand.Scene->IsEngaged());
+  EXPECT_EQ(errors.Count, 1);
+  EXPECT_NE(
+    std::string(second.Hand.Scene->GetErrorMessage()).find("in use by another"), std::string::npos);
+  first.Press('h');
+  second.Press('h');
+  EXPECT_TRUE(second.Hand.Scene->IsEngaged()) << "once it is free";
 }

@@ -1,0 +1,210 @@
+// What happens to a scene while a hand presses on it: no crash, no stale force, a message that says
+// what is wrong.
+#include "SceneTestTools.h"
+
+#include "vtkActor.h"
+#include "vtkCellArray.h"
+#include "vtkHapticProbe.h"
+#include "vtkPoints.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkSphereSource.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+namespace
+{
+/// A hand that presses 5 mm into a table, and what its device is asked for.
+struct PressingHand : LedHand
+{
+  vtkSmartPointer<vtkPolyData> Table = MakeTable(0.0);
+  vtkNew<vtkPolyDataMapper> Mapper;
+  vtkNew<vtkActor> Actor;
+
+  PressingHand()
+  {
+    this->Mapper->SetInputData(this->Table);
+    this->Actor->SetMapper(this->Mapper);
+    this->Scene->AddSurface(this->Actor);
+    this->MoveTo(0.01);
+    this->MoveTo(-0.005);
+    EXPECT_TRUE(this->Scene->GetTouching());
+  }
+  /// The next tick's, as the scene tells it and as the device got it [N].
+  double NextForce()
+  {
+    this->Scene->Step(1);
+    double asked[3];
+    this->Device->GetForce(asked);
+    EXPECT_EQ(asked[2], this->Scene->GetForce()[2]);
+    return asked[2];
+  }
+};
+
+constexpr double Pressed = 500.0 * 0.005; // [N]
+constexpr double Near = 500.0 * 2.0 * Clearance;
+
+vtkSmartPointer<vtkPolyData> MakeTriangle(const double corners[3][3])
+{
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> cells;
+  cells->InsertNextCell(3);
+  for (int i = 0; i < 3; ++i)
+  {
+    cells->InsertCellPoint(points->InsertNextPoint(corners[i]));
+  }
+  auto triangle = vtkSmartPointer<vtkPolyData>::New();
+  triangle->SetPoints(points);
+  triangle->SetPolys(cells);
+  return triangle;
+}
+}
+
+TEST(HapticSceneBadInput, ASurfaceTakenAwayWhileTouchedIsFeltNoMore)
+{
+  const std::function<void(PressingHand&)> ways[] = {
+    [](PressingHand& hand) { hand.Scene->RemoveSurface(hand.Actor); },
+    [](PressingHand& hand) { hand.Scene->RemoveAllSurfaces(); },
+    [](PressingHand& hand) { hand.Actor->VisibilityOff(); },
+    [](PressingHand& hand) { hand.Actor->PickableOff(); },
+    [](PressingHand& hand) { hand.Actor->SetPosition(1.0, 0.0, 0.0); },
+    [](PressingHand& hand) { hand.Mapper->SetInputData(MakeTable(-1.0)); },
+  };
+  for (const auto& way : ways)
+  {
+    PressingHand hand;
+    EventCounter errors(hand.Scene, vtkCommand::ErrorEvent);
+    EventCounter ends(hand.Scene, vtkHapticScene::ContactEndEvent);
+    way(hand);
+    const auto index = &way - ways;
+    EXPECT_EQ(hand.NextForce(), 0.0) << "way " << index;
+    EXPECT_FALSE(hand.Scene->GetTouching()) << "way " << index;
+    EXPECT_EQ(hand.Scene->GetProbe()->GetSurface(), -1) << "way " << index;
+    EXPECT_EQ(ends.Count, 1) << "way " << index;
+    EXPECT_EQ(errors.Count, 0) << "way " << index;
+  }
+}
+
+TEST(HapticSceneBadInput, ASurfaceSpoiltWhileTouchedStaysAsItWasAndSaysWhy)
+{
+  struct Way
+  {
+    const char* Told;
+    std::function<void(PressingHand&)> Spoil;
+  };
+  const Way ways[] = {
+    { "mapper", [](PressingHand& hand) { hand.Actor->SetMapper(nullptr); } },
+    { "no input", [](PressingHand& hand) { hand.Mapper->RemoveAllInputs(); } },
+    { "", [](PressingHand& hand) { hand.Table->Initialize(); } },
+    { "flattens", [](PressingHand& hand) { hand.Actor->SetScale(1.0, 1.0, 0.0); } },
+    { "flattens", [](PressingHand& hand) { hand.Actor->SetScale(0.0); } },
+    { "not finite", [](PressingHand& hand) { hand.Actor->SetPosition(0.0, std::nan(""), 0.0); } },
+    { "finite",
+      [](PressingHand& hand)
+      {
+        hand.Table->GetPoints()->SetPoint(0, 0.0, 0.0, std::nan(""));
+        hand.Table->GetPoints()->Modified();
+        hand.Table->Modified();
+      } },
+  };
+  for (const Way& way : ways)
+  {
+    PressingHand hand;
+    EventCounter errors(hand.Scene, vtkCommand::ErrorEvent);
+    EventCounter told(hand.Scene, vtkHapticScene::SurfaceErrorEvent);
+    way.Spoil(hand);
+    const auto index = &way - ways;
+    EXPECT_NEAR(hand.NextForce(), Pressed, Near) << "way " << index;
+    hand.NextForce();
+    EXPECT_EQ(told.Count, 1) << "once, way " << index;
+    EXPECT_EQ(errors.Count, 1) << "way " << index;
+    const std::string message = hand.Scene->GetErrorMessage();
+    EXPECT_NE(message.find("Surface 0: "), std::string::npos) << message;
+    EXPECT_NE(message.find(way.Told), std::string::npos) << message;
+    EXPECT_NE(message.find("stays in force"), std::string::npos) << message;
+    hand.MoveTo(0.01);
+    EXPECT_EQ(hand.Scene->GetForce()[2], 0.0) << "way " << index;
+  }
+}
+
+TEST(HapticSceneBadInput, FlatAndSinglePointSurfacesAreErrorsAndNothingIsFelt)
+{
+  const double line[3][3] = { { -1, 0, 0 }, { 0, 0, 0 }, { 1, 0, 0 } };
+  const double point[3][3] = { { 0, 0, 0 }, { 0, 0, 0 }, { 0, 0, 0 } };
+  vtkNew<vtkPolyData> lone;
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(0.01, 0.02, 0.0);
+  lone->SetPoints(points);
+  vtkNew<vtkPolyData> empty;
+  for (const vtkSmartPointer<vtkPolyData>& surface : { MakeTriangle(line), MakeTriangle(point),
+         vtkSmartPointer<vtkPolyData>(lone), vtkSmartPointer<vtkPolyData>(empty) })
+  {
+    LedHand hand;
+    EventCounter errors(hand.Scene, vtkCommand::ErrorEvent);
+    const int id = hand.Scene->AddSurface(surface);
+    hand.MoveTo(0.01);
+    hand.MoveTo(-0.005);
+    hand.MoveTo(0.0);
+    EXPECT_EQ(errors.Count, 1);
+    EXPECT_NE(
+      std::string(hand.Scene->GetErrorMessage()).find("It cannot be touched."), std::string::npos)
+      << hand.Scene->GetErrorMessage();
+    EXPECT_FALSE(hand.Scene->IsSurfaceTouchable(id));
+    EXPECT_FALSE(hand.Scene->GetTouching());
+    EXPECT_EQ(hand.Scene->GetForce()[2], 0.0);
+    EXPECT_FALSE(hand.Scene->FitWorkspace()) << "there is nothing to fit";
+  }
+}
+
+TEST(HapticSceneBadInput, AnObserverThatThrowsLeavesTheSceneWhole)
+{
+  LedHand hand;
+  hand.Scene->AddSurface(MakeTable(0.0));
+  vtkNew<vtkCallbackCommand> thrower;
+  thrower->SetCallback([](vtkObject*, unsigned long, void*, void*)
+    { throw std::runtime_error("the observer's own fault"); });
+  hand.Scene->AddObserver(vtkHapticScene::ContactBeginEvent, thrower);
+  hand.MoveTo(0.01);
+  EXPECT_THROW(hand.MoveTo(-0.005), std::runtime_error);
+  EXPECT_TRUE(hand.Scene->GetTouching());
+  EXPECT_NEAR(hand.Scene->GetForce()[2], Pressed, Near);
+  hand.MoveTo(0.01);
+  EXPECT_EQ(hand.Scene->GetForce()[2], 0.0);
+  EXPECT_THROW(hand.MoveTo(-0.005), std::runtime_error) << "events still come";
+  hand.Scene->Release();
+  double asked[3];
+  hand.Device->GetForce(asked);
+  EXPECT_EQ(asked[2], 0.0);
+}
+
+TEST(HapticSceneBadInput, OneDeviceServesOneSceneAtATime)
+{
+  LedHand first;
+  vtkNew<vtkHapticScene> second;
+  second->SetDevice(first.Device);
+  ASSERT_TRUE(first.Scene->Engage());
+  EventCounter errors(second->GetServo(), vtkCommand::ErrorEvent);
+  EXPECT_FALSE(second->Engage());
+  EXPECT_EQ(second->Step(1), 0);
+  EXPECT_EQ(errors.Count, 2);
+  EXPECT_NE(std::string(second->GetErrorMessage()).find("in use by another"), std::string::npos)
+    << second->GetErrorMessage();
+  EXPECT_TRUE(first.Scene->IsEngaged()) << "who has it keeps it";
+  first.Scene->Release();
+  EXPECT_TRUE(second->Engage());
+  second->Release();
+}
+
+TEST(HapticSceneBadInput, ReleaseLetsGoOfAForceInVirtualTimeToo)
+{
+  PressingHand hand;
+  hand.Scene->Release();
+  double asked[3];
+  hand.Device->GetForce(asked);
+  EXPECT_EQ(asked[2], 0.0);
+  EXPECT_EQ(hand.Scene->GetForce()[2], 0.0);
+  EXPECT_FALSE(hand.Scene->GetTouching());
+}
