@@ -1,57 +1,85 @@
-"""enable() makes a plot touchable: plain VTK everywhere, PyVista where it runs on this VTK."""
-
-import importlib.util
+"""enable() makes a plot touchable, and disable() leaves it as it was."""
 
 import vtkmodules.vtkInteractionStyle  # noqa: F401  (registers the interactors)
 import vtkhaptics
 from vtkmodules.vtkFiltersSources import vtkSphereSource
-from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow, vtkRenderWindowInteractor
+from vtkmodules.vtkRenderingCore import (
+    vtkAssembly,
+    vtkRenderer,
+    vtkRenderWindow,
+    vtkRenderWindowInteractor,
+    vtkTextActor,
+)
 from vtkhaptics.picture import surface_actor
 
 
-def check(touch):
-    assert touch.scene.GetNumberOfSurfaces() == 1
-    assert touch.scene.IsEngaged()
-    touch.disable()
-    assert not touch.scene.IsEngaged()
-    assert touch.scene.GetForce() == (0.0, 0.0, 0.0)
-
-
-def test_plain_vtk():
-    sphere = vtkSphereSource()
-    sphere.Update()
+def plot(*props):
     renderer, window = vtkRenderer(), vtkRenderWindow()
-    renderer.AddActor(surface_actor(sphere.GetOutput()))
+    for prop in props:
+        renderer.AddViewProp(prop)
     window.SetSize(100, 100)
     window.AddRenderer(renderer)
+    renderer.ResetCamera()
     interactor = vtkRenderWindowInteractor()
     interactor.SetRenderWindow(window)
     interactor.Initialize()
-    check(vtkhaptics.enable(interactor))
+    return interactor
 
 
-def test_refuses_what_is_no_plotter():
-    try:
-        vtkhaptics.enable("plot")
-    except TypeError as error:
-        assert "pyvista.Plotter" in str(error)
-    else:
-        raise AssertionError("a string was taken for a plotter")
+def ball():
+    sphere = vtkSphereSource()
+    sphere.Update()
+    return surface_actor(sphere.GetOutput())
 
 
-def test_pyvista():
-    if not importlib.util.find_spec("pyvista"):
-        print("skipped: PyVista is not installed (Debian 13: python3-pyvista, against VTK alone)")
-        return
-    import pyvista
+def test_touches_and_leaves_no_trace():
+    interactor = plot(ball())
+    style = interactor.GetInteractorStyle()
+    renderer = interactor.GetRenderWindow().GetRenderers().GetFirstRenderer()
+    touch = vtkhaptics.enable(interactor)
+    assert touch.scene.GetNumberOfSurfaces() == 1
+    assert touch.scene.IsEngaged()
+    assert interactor.GetInteractorStyle() is touch.style
+    touch.scene.Release()
+    touch.device.SetScene(touch.scene)
+    touch.device.SetInteractor(interactor)
+    touch.device.MoveTo(50, 50)
+    touch.device.SetPressed(True)
+    touch.scene.Step(300)
+    assert touch.scene.GetTouching() and max(map(abs, touch.scene.GetForce())) > 0.5
+    touch.disable()
+    assert not touch.scene.IsEngaged()
+    assert touch.scene.GetForce() == (0.0, 0.0, 0.0)
+    assert interactor.GetInteractorStyle() is style
+    assert renderer.GetViewProps().GetNumberOfItems() == 1
 
-    plotter = pyvista.Plotter(window_size=(100, 100))
-    plotter.add_mesh(pyvista.Sphere())
-    plotter.iren.initialize()
-    check(vtkhaptics.enable(plotter))
-    plotter.close()
+
+def test_takes_what_can_be_touched():
+    hidden, unpickable, part = ball(), ball(), ball()
+    hidden.VisibilityOff()
+    unpickable.PickableOff()
+    assembly = vtkAssembly()
+    assembly.AddPart(part)
+    text = vtkTextActor()
+    touch = vtkhaptics.enable(plot(hidden, unpickable, assembly, text), overlay=False)
+    assert touch.scene.GetNumberOfSurfaces() == 1
+    assert touch.scene.GetSurfaceActor(touch.scene.GetSurfaceId(0)) is part
+    touch.disable()
 
 
-test_plain_vtk()
-test_refuses_what_is_no_plotter()
-test_pyvista()
+def test_refuses_what_cannot_be_touched():
+    for nothing, error, told in (
+        ("plot", TypeError, "pyvista.Plotter"),
+        (plot(), ValueError, "no surface that can be touched"),
+    ):
+        try:
+            vtkhaptics.enable(nothing)
+        except error as e:
+            assert told in str(e), e
+        else:
+            raise AssertionError(f"{nothing} was taken for a plotter with something to touch")
+
+
+test_touches_and_leaves_no_trace()
+test_takes_what_can_be_touched()
+test_refuses_what_cannot_be_touched()

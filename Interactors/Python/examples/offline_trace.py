@@ -1,4 +1,11 @@
-"""Replays a path over a sphere, without a device, and prints what would be felt."""
+"""Replays a path over a sphere, without a device, and plots what would be felt.
+
+usage: offline_trace.py [PICTURE.png]
+"""
+
+import os
+import sys
+import tempfile
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
@@ -33,3 +40,24 @@ touching = vtk_to_numpy(data.GetArray("ActiveConstraints")) > 0
 print(f"{touching.sum()} of {len(touching)} ticks touch; the largest force is {force.max():.2f} N")
 assert 100 < touching.sum() < 900
 assert abs(force.max() - 500.0 * 0.002) < 0.02, "stiffness times depth"
+
+try:
+    import matplotlib
+except ImportError:
+    print("no plot: matplotlib is not installed (Debian: apt-get install python3-matplotlib)")
+    sys.exit()
+matplotlib.use("Agg")  # draws into a file, without a display
+from matplotlib import pyplot
+
+god = vtk_to_numpy(trace.GetOutput().GetPoints().GetData())
+figure, (side, felt) = pyplot.subplots(2, sharex=True, layout="constrained")
+side.plot(1e3 * hand[:, 0], 1e3 * hand[:, 2], label="device")
+side.plot(1e3 * god[:, 0], 1e3 * god[:, 2], label="god-object")
+side.set_ylabel("height [mm]")
+side.legend()
+felt.plot(1e3 * hand[:, 0], force, color="firebrick")
+felt.set(xlabel="x [mm]", ylabel="force [N]")
+picture = sys.argv[1] if len(sys.argv) > 1 else os.path.join(tempfile.mkdtemp(), "trace.png")
+figure.savefig(picture)
+print(f"{picture}: {os.path.getsize(picture)} bytes")
+assert os.path.getsize(picture) > 10000

@@ -45,6 +45,7 @@ class DemoError(Exception):
 
 
 def parse(arguments):
+    """The options of a command line; exits with 2 where they are wrong."""
     parser = argparse.ArgumentParser(
         prog="python3 -m vtkhaptics.demo",
         description="Strokes a surface with a simulated haptic device in real time, draws what "
@@ -159,6 +160,7 @@ def touch(scene, picture, seconds, window, stay):
 
 
 def finish(scene):
+    """Lets go of the surface and ends the recording."""
     if scene.IsEngaged():
         scene.Release()
         scene.Update()
@@ -188,6 +190,7 @@ def table(scene, trace):
 
 
 def run(options):
+    """Touches a surface as the options say."""
     surface = read_surface(options.surface)
     try:
         os.makedirs(options.output, exist_ok=True)
@@ -232,6 +235,7 @@ def run(options):
 
 
 def main(arguments=None):
+    """What the command line does; returns the exit status."""
     options = parse(arguments)
     try:
         ensure_display("vtkhaptics.demo", ["--offscreen", *(arguments or sys.argv[1:])])

@@ -188,6 +188,7 @@ class Picture:
         return share_of_height * 2.0 * camera.GetDistance() * half
 
     def save(self, path):
+        """Writes a PNG."""
         save_window(self.window, path)
 
 

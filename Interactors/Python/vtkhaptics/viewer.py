@@ -69,6 +69,7 @@ class ViewerError(Exception):
 
 
 def parse(arguments):
+    """The options of a command line; exits with 2 where they are wrong."""
     parser = argparse.ArgumentParser(
         prog="python3 -m vtkhaptics",
         description="Touch surfaces from files, at 1000 forces a second.",
@@ -397,6 +398,7 @@ def _hand_path(trace):
 
 
 def run(options):
+    """Shows and touches the surfaces as the options say."""
     viewer = Viewer(options)
     viewer.add_surfaces()
     viewer.open()
@@ -405,6 +407,7 @@ def run(options):
 
 
 def main(arguments=None):
+    """What the command line does; returns the exit status."""
     arguments = sys.argv[1:] if arguments is None else list(arguments)
     options = parse(arguments)
     if not options.offscreen and not os.environ.get("DISPLAY") and sys.platform.startswith("linux"):
