@@ -1,9 +1,11 @@
 """The viewer draws, records, replays and says what is wrong, each with its exit status."""
 
+import io
 import os
 import subprocess
 import sys
 import tempfile
+from contextlib import redirect_stderr, redirect_stdout
 
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkDoubleArray
@@ -11,10 +13,27 @@ from vtkmodules.vtkFiltersSources import vtkLineSource, vtkSphereSource
 from vtkmodules.vtkIOImage import vtkPNGReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
 
+from vtkhaptics import surfaces
+from vtkhaptics.progress import ProgressBar
+from vtkhaptics.viewer import main
+
 
 def viewer(*arguments):
+    """Runs it in this process: most of the time goes into starting one."""
+    out, err = io.StringIO(), io.StringIO()
+    with redirect_stdout(out), redirect_stderr(err):
+        try:
+            status = main([str(a) for a in arguments])
+        except SystemExit as exit_:  # argparse's
+            status = exit_.code
+    return subprocess.CompletedProcess(arguments, status, out.getvalue(), err.getvalue())
+
+
+def process(*arguments, **environment):
+    """Runs it as people do."""
     return subprocess.run(
         [sys.executable, "-m", "vtkhaptics", *arguments],
+        env={k: v for k, v in {**os.environ, **environment}.items() if v is not None},
         capture_output=True,
         text=True,
         check=False,
@@ -65,7 +84,9 @@ def test_touches_with_the_mouse_and_replays_it(folder):
     surface = ball(0.0, folder)
     picture, trace = (os.path.join(folder, name) for name in ("a.png", "a.vtp"))
     common = ("--offscreen", "--size", "300", "200", "--seconds", "2")
-    done = viewer(surface, *common, "--screenshot", picture, "--trace", trace)
+    done = viewer(
+        surface, *common, "--scalars", "none", "--screenshot", picture, "--trace", trace
+    )
     assert done.returncode == 0, done.stderr
     assert "length unit" in done.stdout, "a file without a unit is said to be one"
     touched = vtk_to_numpy(read(trace).GetPointData().GetArray("ActiveConstraints")) > 0
@@ -88,6 +109,19 @@ def test_touches_with_the_mouse_and_replays_it(folder):
     )
     assert done.returncode == 0, done.stderr
     assert colors(picture) > 2 * plain, "the values are not coloured"
+
+
+def test_colours_by_the_first_values_where_none_are_active(folder):
+    surface = ball(0.0, folder)
+    pictures = [os.path.join(folder, name) for name in ("first.png", "none.png")]
+    for picture, more in zip(pictures, ((), ("--scalars", "none"))):
+        done = viewer(
+            surface, "--offscreen", "--size", "200", "200", "--seconds", "2",
+            "--screenshot", picture, *more,
+        )
+        assert done.returncode == 0, done.stderr
+    assert "3,040 triangles, 0.9992 x" in done.stdout, done.stdout
+    assert colors(pictures[0]) > 4 * colors(pictures[1]) > 0, [colors(p) for p in pictures]
 
 
 def test_simulated(folder):
@@ -127,24 +161,66 @@ def test_bad_input(folder):
         assert "Traceback" not in failed.stderr, failed.stderr
 
 
-def test_help():
-    done = viewer("--help")
+def test_enormous_files_are_refused(folder):
+    surface, factor = ball(0.0, folder), surfaces.MEMORY_FACTOR
+    surfaces.MEMORY_FACTOR = 1e12  # as if the file were so much larger
+    try:
+        failed = viewer(surface, "--offscreen")
+    finally:
+        surfaces.MEMORY_FACTOR = factor
+    assert failed.returncode == 2 and "more than half of the memory" in failed.stderr, failed.stderr
+
+
+def test_surfaces_that_cannot_be_touched(folder):
+    flat = vtkSphereSource()
+    flat.Update()
+    surface = flat.GetOutput()
+    for i in range(surface.GetNumberOfPoints()):
+        surface.GetPoints().SetPoint(i, surface.GetPoint(i)[0], 0.0, 0.0)
+    path = write(surface, os.path.join(folder, "flat.vtp"))
+    failed = viewer(path, "--offscreen")
+    assert failed.returncode == 2 and path in failed.stderr, failed.stderr
+    assert "cannot be touched" in failed.stderr, failed.stderr
+
+
+def test_progress():
+    class Terminal(io.StringIO):
+        def isatty(self):
+            return True
+
+    terminal = Terminal()
+    with ProgressBar("reading a.stl", terminal) as bar:
+        bar.show(0.1)
+        assert terminal.getvalue() == "", "nothing for what is quick"
+        bar.began -= 10.0
+        bar.show(0.5)
+        assert "reading a.stl" in terminal.getvalue() and "50 %" in terminal.getvalue()
+    assert terminal.getvalue().endswith("\r"), "it goes away"
+    pipe = io.StringIO()
+    with ProgressBar("reading a.stl", pipe) as bar:
+        bar.began -= 10.0
+        bar.show(0.5)
+    assert pipe.getvalue() == "", "no bar in a file"
+
+
+def test_as_a_process(folder):
+    done = process("--help")
     assert done.returncode == 0
-    for named in ("examples:", "exit status:", "--device", ".gii"):
+    for named in ("examples:", "exit status:", "--device", ".gii", "length unit"):
         assert named in done.stdout, named
-
-
-def test_without_a_display_says_so(folder):
-    environment = {k: v for k, v in os.environ.items() if k != "DISPLAY"}
-    done = subprocess.run(
-        [sys.executable, "-m", "vtkhaptics", ball(0.0, folder)],
-        env=environment, capture_output=True, text=True, check=False,
-    )
+    done = process(ball(0.0, folder), DISPLAY=None)
     assert done.returncode == 3 and "--offscreen" in done.stderr, done.stderr
 
 
 with tempfile.TemporaryDirectory() as scratch:
-    for test in (test_touches_with_the_mouse_and_replays_it, test_simulated, test_bad_input):
+    for test in (
+        test_touches_with_the_mouse_and_replays_it,
+        test_colours_by_the_first_values_where_none_are_active,
+        test_simulated,
+        test_bad_input,
+        test_enormous_files_are_refused,
+        test_surfaces_that_cannot_be_touched,
+        test_as_a_process,
+    ):
         test(scratch)
-    test_help()
-    test_without_a_display_says_so(scratch)
+test_progress()

@@ -87,6 +87,25 @@ def save_window(window, path, scale=2):
     write_atomically(path, resize.GetOutput(), vtkPNGWriter())
 
 
+def fill_view(camera, points, out, up, aspect, margin=1.12):
+    """Looks at points (n x 3) from the direction `out`, as near as shows them all; `aspect` is the
+    picture's width through its height."""
+    out = np.asarray(out) / np.linalg.norm(out)
+    right = np.cross(up, out)
+    right /= np.linalg.norm(right)
+    axes = np.array([right, np.cross(out, right), out])
+    low, high = (f(points @ axes.T, axis=0) for f in (np.min, np.max))
+    middle, half = 0.5 * (low + high), 0.5 * (high - low)
+    angle = 24.0
+    need = max(half[0] / aspect, half[1]) * margin
+    distance = need / math.tan(math.radians(0.5 * angle)) + half[2]
+    focus = middle @ axes
+    camera.SetFocalPoint(*focus)
+    camera.SetPosition(*(focus + distance * out))
+    camera.SetViewUp(*axes[1])
+    camera.SetViewAngle(angle)
+
+
 class Picture:
     """A render window with a surface, seen from where it is touched."""
 
@@ -113,20 +132,10 @@ class Picture:
 
     def _aim(self, view, surface):
         """Fills the picture with the surface, as seen along the view."""
-        points = vtk_to_numpy(surface.GetPoints().GetData()) - view.center
-        corners = [points @ axis for axis in (view.right, view.up, view.out)]
-        low = np.array([c.min() for c in corners])
-        high = np.array([c.max() for c in corners])
-        middle, half = 0.5 * (low + high), 0.5 * (high - low)
-        angle = 24.0
-        need = max(half[0] * SIZE[1] / SIZE[0], half[1]) * 1.12
-        distance = need / math.tan(math.radians(0.5 * angle)) + half[2]
-        focus = view.to_world(*([m] for m in middle))[0]
-        camera = self.renderer.GetActiveCamera()
-        camera.SetFocalPoint(*focus)
-        camera.SetPosition(*(focus + distance * view.out))
-        camera.SetViewUp(*view.up)
-        camera.SetViewAngle(angle)
+        points = vtk_to_numpy(surface.GetPoints().GetData())
+        fill_view(
+            self.renderer.GetActiveCamera(), points, view.out, view.up, SIZE[0] / SIZE[1]
+        )
         self.renderer.ResetCameraClippingRange()
 
     def add_text(self, words, height, size, color=(0.18, 0.21, 0.27)):

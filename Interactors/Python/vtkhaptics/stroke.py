@@ -76,20 +76,24 @@ def _curves():
                 yield half_width * math.sqrt(flatness), c * u - d * v, d * u + c * v
 
 
-def _score(view, grid, u, v):
-    """Share of a curve that is good to stroke, given the height map; 0 and less is useless."""
+def _scores(view, grid, u, v):
+    """Share of each curve that is good to stroke, given the height map; 0 and less is useless.
+    Curves are rows; all are looked at together, as there are tens of thousands."""
     scale = (MAP_SIZE - 1) / (2.0 * view.radius)
     column = np.rint((u + view.radius) * scale).astype(int)
     row = np.rint((v + view.radius) * scale).astype(int)
-    if column.min() < 0 or row.min() < 0 or max(column.max(), row.max()) >= MAP_SIZE:
-        return -1.0
-    height = grid[row, column]
-    missing = np.isnan(height).mean()
-    rise = np.abs(np.diff(height, append=height[0]))
-    run = np.hypot(np.diff(u, append=u[0]), np.diff(v, append=v[0]))
+    inside = (np.minimum(column, row) >= 0).all(axis=1)
+    inside &= (np.maximum(column, row) < MAP_SIZE).all(axis=1)
+    scores = np.full(len(u), -1.0)
+    u, v = u[inside], v[inside]
+    height = grid[row[inside], column[inside]]
+    missing = np.isnan(height).mean(axis=1)
+    rise = np.abs(np.roll(height, -1, axis=1) - height)
+    run = np.hypot(np.roll(u, -1, axis=1) - u, np.roll(v, -1, axis=1) - v)
     # Neighbouring map cells may differ by a cell's slope without there being a cliff.
-    cliffs = (rise > STEEP * np.maximum(run, 1.5 / scale)).mean()
-    return 1.0 - 8.0 * missing - 15.0 * cliffs
+    cliffs = (rise > STEEP * np.maximum(run, 1.5 / scale)).mean(axis=1)
+    scores[inside] = 1.0 - 8.0 * missing - 15.0 * cliffs
+    return scores
 
 
 def _best_curves(view, locator):
@@ -98,16 +102,16 @@ def _best_curves(view, locator):
     columns, rows = np.meshgrid(axis, axis)
     grid = view.heights(locator, columns.ravel(), rows.ravel()).reshape(MAP_SIZE, MAP_SIZE)
     covered = np.isfinite(grid).mean()
+    places = np.linspace(-0.6, 0.6, 9)
+    cu, cv = (c.ravel() for c in np.meshgrid(places, places, indexing="ij"))
+    # Rather near the middle of the picture, and rather a view that shows much.
+    weights = (1.0 - 0.15 * np.hypot(cu, cv)) * math.sqrt(covered)
     found = []
     for size, u, v in _curves():
-        for cu in np.linspace(-0.6, 0.6, 9):
-            for cv in np.linspace(-0.6, 0.6, 9):
-                cu_, cv_ = cu * view.radius, cv * view.radius
-                good = _score(view, grid, u * view.radius + cu_, v * view.radius + cv_)
-                # Rather near the middle of the picture, and rather a view that shows much.
-                value = max(good, 0.0) ** 3 * size * (1.0 - 0.15 * math.hypot(cu, cv)) * math.sqrt(covered)
-                if value > 0.0:
-                    found.append((value, u * view.radius + cu_, v * view.radius + cv_))
+        us = (u + cu[:, None]) * view.radius
+        vs = (v + cv[:, None]) * view.radius
+        values = np.maximum(_scores(view, grid, us, vs), 0.0) ** 3 * size * weights
+        found += [(values[i], us[i], vs[i]) for i in np.flatnonzero(values > 0.0)]
     return heapq.nlargest(FINALISTS, found, key=lambda candidate: candidate[0])
 
 

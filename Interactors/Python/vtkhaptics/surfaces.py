@@ -121,13 +121,44 @@ def _read_gifti(path):
     return surface
 
 
+def value_arrays(surface):
+    """Names of the point and cell arrays that tell values: numbers, but no normals, texture
+    coordinates or ids of VTK's own."""
+    names = []
+    for data in (surface.GetPointData(), surface.GetCellData()):
+        special = {data.GetNormals(), data.GetTCoords(), data.GetTangents()}
+        for i in range(data.GetNumberOfArrays()):
+            array, name = data.GetArray(i), data.GetArrayName(i)
+            if array and name and array not in special and not name.startswith("vtk"):
+                names.append(name)
+    return list(dict.fromkeys(names))
+
+
+def default_array(surface):
+    """Name of the array to colour by where nobody has said: the active one, or else the first with
+    one value a point or cell. None where there is none."""
+    points, cells = surface.GetPointData(), surface.GetCellData()
+    active = points.GetScalars() or cells.GetScalars()
+    if active and active.GetName():
+        return active.GetName()
+    for name in value_arrays(surface):
+        array = points.GetArray(name) or cells.GetArray(name)
+        if array.GetNumberOfComponents() == 1:
+            return name
+    return None
+
+
 def unit_note(path, surface):
-    """One line about the size of a surface, and that its unit is not known where it is not."""
+    """One line about the size of a surface, and that its unit is not known: files name none."""
     low, high = surface.GetBounds()[::2], surface.GetBounds()[1::2]
     size = " x ".join(f"{b - a:.4g}" for a, b in zip(low, high))
+    triangles = sum(
+        cells.GetNumberOfConnectivityIds() - 2 * cells.GetNumberOfCells()
+        for cells in (surface.GetPolys(), surface.GetStrips())
+    )
     return (
-        f"{os.path.basename(path)}: {surface.GetNumberOfCells():,} cells, {size} in the file's own "
-        "length unit (it names none; the hand's space is fitted to it)"
+        f"{os.path.basename(path)}: {triangles:,} triangles, {size} in the file's own length unit "
+        "(it names none; the hand's space is fitted to it)"
     )
 
 

@@ -7,6 +7,7 @@ import argparse
 import os
 import sys
 
+import numpy as np
 import vtkmodules.vtkInteractionStyle  # noqa: F401  (registers the interactors)
 import vtkmodules.vtkRenderingFreeType  # noqa: F401  (registers the text renderer)
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
@@ -24,10 +25,17 @@ from . import (
     vtkSimulatedHapticDevice,
 )
 from .display import DisplayError, ensure_display
-from .picture import BACKGROUND, OutputError, add_lights, save_window, surface_actor, write_atomically
+from .picture import BACKGROUND, OutputError, add_lights, fill_view, save_window, surface_actor, write_atomically
 from .progress import ProgressBar
 from .stroke import StrokeError, in_device_frame, plan_stroke
-from .surfaces import FORMATS, SurfaceError, read_surface, unit_note
+from .surfaces import (
+    FORMATS,
+    SurfaceError,
+    default_array,
+    read_surface,
+    unit_note,
+    value_arrays,
+)
 
 EXIT_DONE, EXIT_FAILED, EXIT_INPUT, EXIT_DISPLAY = 0, 1, 2, 3
 SIDES = {"auto": "SetSideToAutomatic", "front": "SetSideToFront", "both": "SetSideToBoth"}
@@ -57,6 +65,8 @@ EPILOG = """examples:
 
 without a window (--offscreen) time is virtual, so that every run gives the same picture; nobody
 moves the mouse there, so it strokes across the middle of the view by itself.
+
+files name no length unit: sizes are shown in the file's own, and the hand's space is fitted to them.
 
 exit status:
   0 done; 1 the device or the servo failed, or a file could not be written; 2 wrong arguments or a
@@ -102,7 +112,8 @@ def parse(arguments):
     parser.add_argument(
         "--scalars",
         metavar="ARRAY",
-        help="point or cell array to colour by (default: the active one; 'none' for no colours)",
+        help="point or cell array to colour by (default: the active one, or else the first that "
+        "holds values; 'none' for no colours)",
     )
     parser.add_argument(
         "--screenshot", metavar="FILE", help="write a PNG of the end, or when the window is closed"
@@ -158,7 +169,6 @@ class Viewer:
             name = os.path.basename(path)
             with ProgressBar(f"reading {name}") as bar:
                 surface = read_surface(path, bar.show)
-            print(unit_note(path, surface), flush=True)
             actor = surface_actor(surface, COLORS[number % len(COLORS)])
             self._color(actor, surface, path)
             self.renderer.AddActor(actor)
@@ -175,6 +185,7 @@ class Viewer:
                 self.scene.RemoveObserver(watch)
             if not self.scene.IsSurfaceTouchable(id_):
                 raise SurfaceError(f"{path}: {self.scene.GetErrorMessage()}")
+            print(unit_note(path, surface), flush=True)
             self.surfaces.append(surface)
 
     def _color(self, actor, surface, path):
@@ -183,23 +194,16 @@ class Viewer:
         if wanted == "none":
             return
         points, cells = surface.GetPointData(), surface.GetCellData()
-        active = points.GetScalars() or cells.GetScalars()
-        name = wanted or (active.GetName() if active else None)
+        name = wanted or default_array(surface)
         array = points.GetArray(name) or cells.GetArray(name) if name else None
         if not array:
             if wanted and not any(
                 s.GetPointData().HasArray(wanted) or s.GetCellData().HasArray(wanted)
                 for s in self.surfaces
             ):
-                known = [
-                    data.GetArrayName(i)
-                    for data in (points, cells)
-                    for i in range(data.GetNumberOfArrays())
-                ]
+                known = ", ".join(value_arrays(surface)) or "none"
                 raise SurfaceError(
-                    f"{path}: has no array '{wanted}' to colour by. It has: "
-                    + (", ".join(str(k) for k in known) or "none")
-                    + "."
+                    f"{path}: has no array '{wanted}' to colour by. It has: {known}."
                 )
             return
         mapper = actor.GetMapper()
@@ -216,6 +220,9 @@ class Viewer:
         mapper.UseLookupTableScalarRangeOn()
         if not wanted or len(self.surfaces) == 0:
             self._add_scalar_bar(table, name)
+        others = [n for n in value_arrays(surface) if n != name]
+        if others and not wanted:
+            print(f"coloured by {name}; --scalars for {', '.join(others)}", flush=True)
 
     def _add_scalar_bar(self, table, name):
         bar = vtkScalarBarActor()
@@ -224,10 +231,12 @@ class Viewer:
         bar.SetNumberOfLabels(4)
         bar.SetLabelFormat("%.3g")
         bar.UnconstrainedFontSizeOn()
-        bar.SetMaximumWidthInPixels(70)
-        bar.SetMaximumHeightInPixels(260)
+        bar.SetBarRatio(0.2)
         bar.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
-        bar.SetPosition(0.92, 0.05)
+        width, height = (min(1.0, p / size) for p, size in zip((100, 280), self.options.size))
+        bar.SetWidth(width)
+        bar.SetHeight(min(height, 0.6))
+        bar.SetPosition(1.0 - width, 0.05)
         for text in (bar.GetTitleTextProperty(), bar.GetLabelTextProperty()):
             text.SetColor(*TEXT)
             text.SetFontSize(15)
@@ -245,12 +254,16 @@ class Viewer:
         names = ", ".join(os.path.basename(path) for path in self.options.surfaces)
         self.window.SetWindowName(f"{names} - VTK Haptics - ? lists the keys")
         self.window.AddRenderer(self.renderer)
-        camera = self.renderer.GetActiveCamera()
-        camera.SetViewAngle(24.0)
-        camera.SetPosition(0.45, -0.75, 0.5)
-        camera.SetViewUp(0.0, 0.0, 1.0)
-        self.renderer.ResetCamera()
-        camera.Zoom(1.25)
+        points = np.concatenate([vtk_to_numpy(s.GetPoints().GetData()) for s in self.surfaces])
+        width, height = self.options.size
+        fill_view(
+            self.renderer.GetActiveCamera(),
+            points[np.isfinite(points).all(axis=1)].astype(float),
+            out=(0.45, -0.75, 0.5),
+            up=(0.0, 0.0, 1.0),
+            aspect=width / height,
+            margin=1.3,
+        )
         self.hand = self.scene.GetGodObjectActor()
         self.hand.ShowTrailOn()
         self.renderer.AddViewProp(self.hand)
