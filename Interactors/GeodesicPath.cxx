@@ -14,7 +14,8 @@ namespace haptics
 {
 namespace
 {
-constexpr int PointsOnEdge = 3;
+constexpr int CoarsePoints = 3; // on each edge of the whole surface
+constexpr int FinePoints = 15;  // on each edge near the way that was found with the coarse ones
 constexpr int MostSweeps = 400;
 constexpr double StraightEnough = 1e-10; // of the length, gained by a sweep
 
@@ -38,16 +39,22 @@ public:
     std::int32_t To;
   };
 
-  explicit Graph(const TriangleSurface& surface)
+  /// Of the triangles for which `isIn` is true.
+  Graph(const TriangleSurface& surface, int pointsOnEdge, const std::vector<bool>& isIn)
     : Surface(surface)
+    , PointsOnEdge(pointsOnEdge)
     , Corners(static_cast<std::int64_t>(surface.Points().size()))
     , TriangleEdges(surface.Triangles().size())
     , AroundCorner(surface.Points().size())
   {
     std::unordered_map<std::uint64_t, std::int32_t> known;
-    known.reserve(2 * surface.Triangles().size());
+    known.reserve(2 * static_cast<std::size_t>(std::count(isIn.begin(), isIn.end(), true)));
     for (std::size_t t = 0; t < surface.Triangles().size(); ++t)
     {
+      if (!isIn[t])
+      {
+        continue;
+      }
       const Triangle& triangle = surface.Triangles()[t];
       for (std::size_t k = 0; k < 3; ++k)
       {
@@ -73,8 +80,8 @@ public:
   const Edge& EdgeOf(std::int64_t node) const { return this->Edges[this->EdgeIndex(node)]; }
   double PlaceOnEdge(std::int64_t node) const
   {
-    return (1.0 + static_cast<double>((node - this->Corners) % PointsOnEdge)) /
-      (PointsOnEdge + 1.0);
+    return (1.0 + static_cast<double>((node - this->Corners) % this->PointsOnEdge)) /
+      (this->PointsOnEdge + 1.0);
   }
   Vec3 Position(std::int64_t node) const
   {
@@ -99,9 +106,9 @@ public:
     for (std::size_t k = 0; k < 3; ++k)
     {
       visit(static_cast<std::int64_t>(this->Surface.Triangles()[t][k]));
-      for (int i = 0; i < PointsOnEdge; ++i)
+      for (int i = 0; i < this->PointsOnEdge; ++i)
       {
-        visit(this->Corners + std::int64_t{ this->TriangleEdges[t][k] } * PointsOnEdge + i);
+        visit(this->Corners + std::int64_t{ this->TriangleEdges[t][k] } * this->PointsOnEdge + i);
       }
     }
   }
@@ -109,10 +116,11 @@ public:
 private:
   std::size_t EdgeIndex(std::int64_t node) const
   {
-    return static_cast<std::size_t>((node - this->Corners) / PointsOnEdge);
+    return static_cast<std::size_t>((node - this->Corners) / this->PointsOnEdge);
   }
 
   const TriangleSurface& Surface;
+  int PointsOnEdge;
   std::int64_t Corners;
   std::vector<Edge> Edges;
   std::vector<std::array<std::int32_t, 3>> TriangleEdges;
@@ -242,6 +250,45 @@ void Straighten(const TriangleSurface& surface, const Graph& graph,
     before = after;
   }
 }
+
+/// The triangles at the nodes of a way, and those that share a corner with them.
+std::vector<bool> Surroundings(
+  const TriangleSurface& surface, const Graph& graph, const std::vector<std::int64_t>& nodes)
+{
+  std::vector<bool> isNear(surface.Points().size(), false);
+  for (const std::int64_t node : nodes)
+  {
+    for (const std::int32_t triangle : graph.TrianglesAround(node))
+    {
+      for (const std::int32_t corner : surface.Triangles()[static_cast<std::size_t>(triangle)])
+      {
+        isNear[static_cast<std::size_t>(corner)] = true;
+      }
+    }
+  }
+  std::vector<bool> isIn(surface.Triangles().size());
+  std::transform(surface.Triangles().begin(), surface.Triangles().end(), isIn.begin(),
+    [&isNear](const Triangle& triangle)
+    {
+      return std::any_of(triangle.begin(), triangle.end(),
+        [&isNear](std::int32_t corner) { return isNear[static_cast<std::size_t>(corner)]; });
+    });
+  return isIn;
+}
+
+/// A way through the graph's nodes, straightened.
+std::vector<Vec3> FindWay(const TriangleSurface& surface, const Graph& graph,
+  const std::vector<std::int64_t>& nodes, const Vec3& from, const Vec3& to)
+{
+  std::vector<Vec3> points{ from };
+  for (const std::int64_t node : nodes)
+  {
+    points.push_back(graph.Position(node));
+  }
+  points.push_back(to);
+  Straighten(surface, graph, nodes, points);
+  return points;
+}
 }
 
 GeodesicPath FindGeodesicPath(
@@ -254,26 +301,26 @@ GeodesicPath FindGeodesicPath(
   };
   const Vec3 begin = local(from.Position);
   const Vec3 end = local(to.Position);
-  path.Points.push_back(begin);
+  path.Points = { begin, end };
   if (from.Triangle != to.Triangle)
   {
-    const Graph graph(surface);
-    const std::vector<std::int64_t> nodes =
-      FindNodes(graph, from.Triangle, begin, to.Triangle, end);
+    std::vector<bool> isIn(surface.Triangles().size(), true);
+    const Graph coarse(surface, CoarsePoints, isIn);
+    std::vector<std::int64_t> nodes = FindNodes(coarse, from.Triangle, begin, to.Triangle, end);
     if (nodes.empty())
     {
       return { std::numeric_limits<double>::infinity(), {} };
     }
-    for (const std::int64_t node : nodes)
+    path.Points = FindWay(surface, coarse, nodes, begin, end);
+
+    // The coarse points may take it round the wrong side of a corner, where no sliding helps.
+    const Graph fine(surface, FinePoints, Surroundings(surface, coarse, nodes));
+    nodes = FindNodes(fine, from.Triangle, begin, to.Triangle, end);
+    std::vector<Vec3> points = FindWay(surface, fine, nodes, begin, end);
+    if (!nodes.empty() && Length(points) < Length(path.Points))
     {
-      path.Points.push_back(graph.Position(node));
+      path.Points = std::move(points);
     }
-    path.Points.push_back(end);
-    Straighten(surface, graph, nodes, path.Points);
-  }
-  else
-  {
-    path.Points.push_back(end);
   }
   path.Length = Length(path.Points);
   for (Vec3& point : path.Points)

@@ -27,10 +27,10 @@ struct GeodesicPath
 ///
 /// Dijkstra's method over the corners and three points of each edge finds which triangles the way
 /// crosses (M. Lanthier, A. Maheshwari, J.-R. Sack, "Approximating Weighted Shortest Paths on
-/// Polyhedral Surfaces", 1997); then the crossings slide along their edges until the way is
-/// straight in the unfolded triangles. So it is exact within those triangles, and never shorter
-/// than the shortest. Triangles that only touch in a corner are joined there. For the GUI: it
-/// allocates.
+/// Polyhedral Surfaces", 1997), and again with fifteen near the way found; then the crossings slide
+/// along their edges until the way is straight in the unfolded triangles. So it is exact within
+/// those triangles, and never shorter than the shortest. Triangles that only touch in a corner are
+/// joined there. For the GUI: it allocates.
 GeodesicPath FindGeodesicPath(
   const TriangleSurface& surface, const SurfacePoint& from, const SurfacePoint& to);
 }

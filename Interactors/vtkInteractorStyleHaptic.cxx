@@ -33,7 +33,7 @@ constexpr const char* KeysHelp = "drag         turn the camera (Shift: pan, Ctrl
                                  "b            trail\n"
                                  "d   z        drop a landmark, take the last one away\n"
                                  "c            clutch: let go, and take hold again\n"
-                                 "+   -   0    the hand goes farther, less far, as at first\n"
+                                 "+   -   0    the hand goes farther, less far, reset\n"
                                  "o            hand occluded or seen through the surface\n"
                                  "t   g        touched triangles, colours of the force\n"
                                  "r   f        reset the camera, fly to the cursor\n"

@@ -3,6 +3,7 @@
 # Threads run in some of these, but no time is asserted.
 haptics_add_gtest(TestHapticScene
   TestBackgroundBuilding.cxx
+  TestGeodesicDistance.cxx
   TestHapticScene.cxx
   TestHapticSceneActors.cxx
   TestHapticSceneAssemblies.cxx

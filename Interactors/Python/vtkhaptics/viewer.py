@@ -319,6 +319,7 @@ class Viewer:
         self.error = None
         self.interactor.AddObserver("ExitEvent", self._on_exit, 10.0)  # before the style lets go
         self.interactor.Start()
+        self.scene.Release()  # where a script has ended the loop, nobody has asked for it
         if self.error:
             raise self.error
 
