@@ -14,6 +14,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
+#include <vector>
 
 namespace
 {
@@ -72,11 +74,14 @@ struct Slope
 
 TEST(GodObjectActor, TheTrailIsSeenWholeOnASlopeAtAnyScale)
 {
+  // All stay open till the end: an X server without clients may start anew, and refuse meanwhile.
+  std::vector<std::unique_ptr<Slope>> slopes;
   for (const double size : { 0.003, 30000.0 })
   {
     for (const bool parallel : { false, true })
     {
-      Slope slope(size, parallel);
+      slopes.push_back(std::make_unique<Slope>(size, parallel));
+      Slope& slope = *slopes.back();
       const int withSurface = slope.CountTrail();
       slope.Surface->GetProperty()->SetOpacity(0.0);
       const int alone = slope.CountTrail();
