@@ -19,6 +19,16 @@
 
 namespace
 {
+#ifdef __SANITIZE_THREAD__
+// ThreadSanitizer does not see how Embree's worker threads are synchronised (TBB): surfaces small
+// enough to do without Embree have the same threads of ours.
+constexpr int Fine = 24;
+constexpr int Finest = 25;
+#else
+constexpr int Fine = 200;
+constexpr int Finest = 807; // 1.3 million triangles
+#endif
+
 using Clock = std::chrono::steady_clock;
 
 double SecondsSince(Clock::time_point start)
@@ -91,7 +101,7 @@ TEST_F(BackgroundBuilding, UpdateReturnsAtOnceAndTheContactLastsOverThirteenHund
   this->Hand.Device->SetPosition(0.0, 0.0, -0.002);
   awaitHand(true);
   EventCounter ends(this->Scene, vtkHapticScene::ContactEndEvent);
-  this->Show(MakeBall(807));
+  this->Show(MakeBall(Finest));
   const auto start = Clock::now();
   double longest = 0.0;
   do
@@ -105,15 +115,17 @@ TEST_F(BackgroundBuilding, UpdateReturnsAtOnceAndTheContactLastsOverThirteenHund
   const double all = SecondsSince(start);
   RecordProperty("LongestUpdateInMilliseconds", static_cast<int>(1000.0 * longest));
   RecordProperty("BuildInMilliseconds", static_cast<int>(1000.0 * all));
+#ifndef __SANITIZE_THREAD__
   EXPECT_LT(longest, all / 4) << "of " << all << " s; built in Update() it would be nearly all";
   EXPECT_GT(this->Filter()->GetSurface()->Triangles().size(), 1'300'000u);
+#endif
   this->Scene->Release();
   EXPECT_EQ(ends.Count, 1) << "at the release only";
 }
 
 TEST_F(BackgroundBuilding, StepWaitsSoThatItGivesTheSameAsBuildingAtOnce)
 {
-  this->Show(MakeBall(64, 0.001));
+  this->Show(MakeBall(Fine / 3, 0.001));
   this->Scene->Step(10);
   EXPECT_FALSE(this->Scene->IsBuilding());
   const double background = this->Scene->GetForce()[2];
@@ -121,7 +133,7 @@ TEST_F(BackgroundBuilding, StepWaitsSoThatItGivesTheSameAsBuildingAtOnce)
   this->Show(MakeBall(8));
   this->Scene->BackgroundBuildingOff();
   this->Scene->Step(10);
-  this->Show(MakeBall(64, 0.001));
+  this->Show(MakeBall(Fine / 3, 0.001));
   this->Scene->Step(10);
   // Contact goes on from what was touched before, which leaves its rounding.
   EXPECT_NEAR(this->Scene->GetForce()[2], background, 1e-9);
@@ -129,23 +141,23 @@ TEST_F(BackgroundBuilding, StepWaitsSoThatItGivesTheSameAsBuildingAtOnce)
 
 TEST_F(BackgroundBuilding, TheNewestGeometryWinsAndThoseBetweenAreLeftOut)
 {
-  this->Show(MakeBall(200));
+  this->Show(MakeBall(Fine));
   this->Scene->Update();
   EXPECT_TRUE(this->Scene->IsBuilding());
-  this->Show(MakeBall(201));
+  this->Show(MakeBall(Fine + 1));
   this->Scene->Update();
-  vtkSmartPointer<vtkPolyData> newest = MakeBall(100);
+  vtkSmartPointer<vtkPolyData> newest = MakeBall(Fine / 2);
   this->Show(newest);
   this->AwaitBuilds();
   EXPECT_EQ(static_cast<vtkIdType>(this->Filter()->GetSurface()->Triangles().size()),
     newest->GetNumberOfPolys());
-  EXPECT_EQ(this->Filter()->GetNumberOfBuilds(), 3) << "the first, 200 and 100";
+  EXPECT_EQ(this->Filter()->GetNumberOfBuilds(), 3) << "the first, the fine one and the newest";
 }
 
 TEST_F(BackgroundBuilding, ACancelledBuildLeavesWhatWasTouchedTillTheGeometryChangesAgain)
 {
   const auto before = this->Filter()->GetSurface();
-  this->Show(MakeBall(200));
+  this->Show(MakeBall(Fine));
   this->Scene->Update();
   ASSERT_TRUE(this->Scene->IsBuilding());
   this->Scene->CancelBuild();
@@ -177,7 +189,7 @@ TEST_F(BackgroundBuilding, ProgressGoesFromZeroToOneAndEveryStepIsTold)
       to->Progress.push_back(to->Scene->GetBuildProgress());
     });
   this->Scene->AddObserver(vtkHapticScene::BuildEvent, listener);
-  this->Show(MakeBall(200));
+  this->Show(MakeBall(Fine));
   this->Scene->Update();
   this->AwaitBuilds();
   ASSERT_GE(told.Progress.size(), 2u);
@@ -206,7 +218,7 @@ TEST_F(BackgroundBuilding, ABadGeometryIsToldOnceAndTheLastOneStays)
 
 TEST_F(BackgroundBuilding, PointsMayBeWrittenWhileTheyAreBuiltFrom)
 {
-  vtkSmartPointer<vtkPolyData> ball = MakeBall(200);
+  vtkSmartPointer<vtkPolyData> ball = MakeBall(Fine);
   this->Show(ball);
   this->Scene->Update();
   ASSERT_TRUE(this->Scene->IsBuilding());
@@ -227,7 +239,7 @@ TEST_F(BackgroundBuilding, PointsMayBeWrittenWhileTheyAreBuiltFrom)
 
 TEST_F(BackgroundBuilding, ASurfaceMayGoWhileItIsBuilt)
 {
-  this->Show(MakeBall(200));
+  this->Show(MakeBall(Fine));
   this->Scene->Update();
   ASSERT_TRUE(this->Scene->IsBuilding());
   this->Scene->RemoveAllSurfaces();
@@ -240,8 +252,8 @@ TEST(BackgroundBuildingOfAScene, TheSceneMayGoWhileItBuilds)
 {
   vtkNew<vtkHapticScene> scene;
   scene->BackgroundBuildingOn();
-  scene->AddSurface(MakeBall(200));
-  scene->AddSurface(MakeBall(201));
+  scene->AddSurface(MakeBall(Fine));
+  scene->AddSurface(MakeBall(Fine + 1));
   scene->Update();
   EXPECT_TRUE(scene->IsBuilding());
 }
@@ -250,7 +262,7 @@ TEST(BackgroundBuildingOfAScene, TheWorkspaceIsFittedToWhatIsBuiltForTheFirstTim
 {
   LedHand hand;
   hand.Scene->BackgroundBuildingOn();
-  hand.Scene->AddSurface(MakeBall(200));
+  hand.Scene->AddSurface(MakeBall(Fine));
   ASSERT_TRUE(hand.Scene->FitWorkspace());
   ASSERT_TRUE(hand.Scene->IsBuilding());
   double early = hand.Scene->GetWorkspaceTransform()->GetElement(0, 0);
