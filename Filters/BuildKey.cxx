@@ -6,6 +6,7 @@
 #include "vtkPolyData.h"
 #include "vtkUnsignedCharArray.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace haptics
@@ -26,6 +27,14 @@ void AddCells(BuildKey& key, vtkCellArray* cells)
   key.Sizes.push_back(cells->GetNumberOfCells());
   key.Sizes.push_back(cells->GetNumberOfConnectivityIds());
 }
+}
+
+bool HaveSameCells(const BuildKey& a, const BuildKey& b)
+{
+  // The points come first, see MakeBuildKey().
+  return a.Sizes == b.Sizes && a.Properties == b.Properties &&
+    std::equal(a.Objects.begin() + 1, a.Objects.end(), b.Objects.begin() + 1, b.Objects.end()) &&
+    std::equal(a.Times.begin() + 1, a.Times.end(), b.Times.begin() + 1, b.Times.end());
 }
 
 BuildKey MakeBuildKey(vtkPolyData* input, std::vector<double> properties)

@@ -25,6 +25,9 @@ struct BuildKey
   }
 };
 
+/// Whether two keys differ in nothing but the points.
+bool HaveSameCells(const BuildKey& a, const BuildKey& b);
+
 /// The key of `input` and the values of the filter's properties. Does not look at a coordinate.
 BuildKey MakeBuildKey(vtkPolyData* input, std::vector<double> properties);
 }

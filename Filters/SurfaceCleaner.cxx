@@ -221,6 +221,7 @@ bool Cleaner::MergePoints()
 {
   const double tolerance =
     this->Options.MergeTolerance * (this->Options.AbsoluteTolerance ? 1.0 : this->Diagonal);
+  this->Cleaned.MergedWithin = tolerance;
   PointMerger merger(static_cast<std::size_t>(this->UsedPoints), tolerance);
   std::vector<Vec3>& world = this->Cleaned.Mesh.Points;
   std::vector<vtkIdType>& original = this->Cleaned.OriginalPoint;
@@ -386,6 +387,11 @@ void Cleaner::DropUnusedPoints()
   {
     t = { moved[t[0]], moved[t[1]], moved[t[2]] };
   }
+  this->Cleaned.KeptPoint = std::move(this->Merged);
+  for (std::int32_t& point : this->Cleaned.KeptPoint)
+  {
+    point = point == Unused ? Unused : moved[point];
+  }
 }
 
 CleaningResult Cleaner::Run()
@@ -397,6 +403,7 @@ CleaningResult Cleaner::Run()
   {
     return this->Stopped ? CleaningResult::Aborted : CleaningResult::Failed;
   }
+  this->Cleaned.Report.FlatTriangles = static_cast<std::int64_t>(this->Flat.size());
   if (!this->Flat.empty())
   {
     CloseFlatTriangles(

@@ -29,6 +29,7 @@ struct CleaningReport
   std::int64_t DuplicateTriangles = 0; ///< equal corners and orientation, all but the first dropped
   std::int64_t FoldedPolygons = 0;     ///< crossing themselves, split into a fan
   std::int64_t GhostCells = 0;         ///< ghosts and blanked cells, dropped
+  std::int64_t FlatTriangles = 0; ///< degenerate ones with three corners: moved, they may have area
   vtkIdType FirstFoldedCell = -1;
 };
 
@@ -38,7 +39,9 @@ struct CleanedMesh
   TriangleMesh Mesh;                    ///< world frame; every point is used
   std::vector<vtkIdType> OriginalPoint; ///< for each point the first input point that it stands for
   std::vector<vtkIdType> OriginalCell;  ///< for each triangle the input cell
+  std::vector<std::int32_t> KeptPoint;  ///< for each input point what stands for it, or -1
   double LargestCoordinate = 0.0;       ///< largest |coordinate| of a used point [world unit]
+  double MergedWithin = 0.0;            ///< the merge tolerance [world unit]
   CleaningReport Report;
 };
 

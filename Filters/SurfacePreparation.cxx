@@ -4,6 +4,7 @@
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkDataArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -11,6 +12,8 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstring>
 #include <utility>
 
 namespace haptics
@@ -26,14 +29,14 @@ vtkSmartPointer<vtkIdTypeArray> MakeIdArray(const char* name, const std::vector<
   return array;
 }
 
-vtkSmartPointer<vtkPoints> MakePoints(const TriangleMesh& mesh, int dataType)
+vtkSmartPointer<vtkPoints> MakePoints(const std::vector<Vec3>& from, int dataType)
 {
   auto points = vtkSmartPointer<vtkPoints>::New();
   points->SetDataType(dataType == VTK_FLOAT ? VTK_FLOAT : VTK_DOUBLE);
-  points->SetNumberOfPoints(static_cast<vtkIdType>(mesh.Points.size()));
-  for (std::size_t i = 0; i < mesh.Points.size(); ++i)
+  points->SetNumberOfPoints(static_cast<vtkIdType>(from.size()));
+  for (std::size_t i = 0; i < from.size(); ++i)
   {
-    points->SetPoint(static_cast<vtkIdType>(i), mesh.Points[i].data());
+    points->SetPoint(static_cast<vtkIdType>(i), from[i].data());
   }
   return points;
 }
@@ -55,6 +58,27 @@ vtkSmartPointer<vtkCellArray> MakeCells(const TriangleMesh& mesh)
   auto cells = vtkSmartPointer<vtkCellArray>::New();
   cells->SetData(offsets, connectivity);
   return cells;
+}
+
+/// Whether two arrays hold the same values, as far as that can be told by looking at their memory.
+bool HoldTheSame(vtkDataArray* a, vtkDataArray* b)
+{
+  if (a == b)
+  {
+    return true;
+  }
+  const auto isPlain = [](vtkDataArray* array)
+  { return array && array->HasStandardMemoryLayout(); };
+  return isPlain(a) && isPlain(b) && a->GetDataType() == b->GetDataType() &&
+    a->GetNumberOfValues() == b->GetNumberOfValues() &&
+    std::memcmp(a->GetVoidPointer(0), b->GetVoidPointer(0),
+      static_cast<std::size_t>(a->GetNumberOfValues() * a->GetDataTypeSize())) == 0;
+}
+
+bool HoldTheSame(vtkCellArray* a, vtkCellArray* b)
+{
+  return HoldTheSame(a->GetOffsetsArray(), b->GetOffsetsArray()) &&
+    HoldTheSame(a->GetConnectivityArray(), b->GetConnectivityArray());
 }
 }
 
@@ -98,6 +122,7 @@ void SurfacePreparation::CopyPoints()
 void SurfacePreparation::Finish()
 {
   this->Input->SetPoints(nullptr);
+  this->Earlier.reset(); // or each would keep all before it
 }
 
 int SurfacePreparation::Fill(vtkPolyData* input, vtkPolyData* output) const
@@ -108,6 +133,81 @@ int SurfacePreparation::Fill(vtkPolyData* input, vtkPolyData* output) const
            output->GetPointData()) +
     PassAttributes(
       input->GetCellData(), input->GetNumberOfCells(), this->CellIds, output->GetCellData());
+}
+
+void SurfacePreparation::FollowOn(std::shared_ptr<const SurfacePreparation> earlier)
+{
+  // What was without area may have some now, and triangles in its place.
+  if (earlier->Found.FlatTriangles > 0 || earlier->InputKey.Sizes != this->InputKey.Sizes ||
+    earlier->InputKey.Properties != this->InputKey.Properties)
+  {
+    return;
+  }
+  BuildKey now = MakeKey(earlier->Input, earlier->Options);
+  now.Sizes = earlier->InputKey.Sizes; // its points are gone
+  const bool wasOverwritten = !HaveSameCells(now, earlier->InputKey);
+  this->CellsOfEarlier = HaveSameCells(this->InputKey, earlier->InputKey) ? Cells::Same
+    : wasOverwritten                                                      ? Cells::Other
+                                                                          : Cells::Unknown;
+  this->Earlier = std::move(earlier);
+}
+
+bool SurfacePreparation::HasSameCells() const
+{
+  if (this->CellsOfEarlier != Cells::Unknown)
+  {
+    return this->CellsOfEarlier == Cells::Same;
+  }
+  return HoldTheSame(this->Input->GetPolys(), this->Earlier->Input->GetPolys()) &&
+    HoldTheSame(this->Input->GetStrips(), this->Earlier->Input->GetStrips()) &&
+    HoldTheSame(this->Input->GetCellGhostArray(), this->Earlier->Input->GetCellGhostArray());
+}
+
+bool SurfacePreparation::Follow(std::vector<Vec3>& points)
+{
+  if (!this->HasSameCells() || !this->MovePoints(points))
+  {
+    return false;
+  }
+  this->Found = this->Earlier->Found;
+  this->CrackWidthInUse = this->Earlier->CrackWidthInUse;
+  this->MergedWithin = this->Earlier->MergedWithin;
+  this->Kept = this->Earlier->Kept;
+  this->CleanPoints = MakePoints(points, this->Input->GetPoints()->GetDataType());
+  this->CleanTriangles = this->Earlier->CleanTriangles;
+  this->PointIds = this->Earlier->PointIds;
+  this->CellIds = this->Earlier->CellIds;
+  return true;
+}
+
+bool SurfacePreparation::MovePoints(std::vector<Vec3>& points) const
+{
+  const std::vector<std::int32_t>& kept = *this->Earlier->Kept;
+  const vtkIdType* original = this->Earlier->PointIds->GetPointer(0);
+  points.resize(static_cast<std::size_t>(this->Earlier->PointIds->GetNumberOfValues()));
+  for (std::size_t i = 0; i < kept.size(); ++i)
+  {
+    if (kept[i] < 0)
+    {
+      continue;
+    }
+    const auto point = static_cast<vtkIdType>(i);
+    Vec3 p;
+    this->Input->GetPoint(point, p.data());
+    Vec3& q = points[static_cast<std::size_t>(kept[i])];
+    if (original[kept[i]] == point)
+    {
+      q = p;
+    }
+    const double apart = std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+    // Not less is also how NaN answers.
+    if (!(std::abs(p[0]) < LargestCoordinate && std::abs(p[1]) < LargestCoordinate &&
+          std::abs(p[2]) < LargestCoordinate && apart <= this->Earlier->MergedWithin))
+    {
+      return false;
+    }
+  }
+  return true;
 }
 
 CleaningResult SurfacePreparation::Run(const ProgressCall& progress)
@@ -128,7 +228,9 @@ CleaningResult SurfacePreparation::Run(const ProgressCall& progress)
   }
   const int dataType = this->Input->GetPoints()->GetDataType();
   this->Found = cleaned.Report;
-  this->CleanPoints = MakePoints(cleaned.Mesh, dataType);
+  this->MergedWithin = cleaned.MergedWithin;
+  this->Kept = std::make_shared<const std::vector<std::int32_t>>(std::move(cleaned.KeptPoint));
+  this->CleanPoints = MakePoints(cleaned.Mesh.Points, dataType);
   this->CleanTriangles = MakeCells(cleaned.Mesh);
   this->PointIds = MakeIdArray("OriginalPointId", cleaned.OriginalPoint);
   this->CellIds = MakeIdArray("OriginalCellId", cleaned.OriginalCell);

@@ -9,6 +9,7 @@
 #include "vtkNew.h"
 #include "vtkSmartPointer.h"
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -48,8 +49,16 @@ public:
   /// another thread. Cells are still shared.
   void CopyPoints();
 
+  /// Lets Follow() look whether this is an earlier geometry in another shape. GUI thread.
+  void FollowOn(std::shared_ptr<const SurfacePreparation> earlier);
+  /// Instead of Run(): where the geometry given to FollowOn() has the same cells, and its clean
+  /// points are still those of this one, moved, gives where they are now, and is then as after
+  /// Run() but for Surface(), which is null. False elsewhere, also where a coordinate is not
+  /// finite: call Run(), which tells. On any thread, once.
+  bool Follow(std::vector<Vec3>& points);
+
   CleaningResult Run(const ProgressCall& progress);
-  /// Lets go of the input's points.
+  /// Lets go of the input's points, and of the geometry given to FollowOn().
   void Finish();
 
   /// Gives `output` the clean points and triangles, and the attributes of `input`, a geometry with
@@ -74,6 +83,15 @@ public:
   ///@}
 
 private:
+  enum class Cells
+  {
+    Unknown,
+    Same,
+    Other
+  };
+  bool HasSameCells() const;
+  bool MovePoints(std::vector<Vec3>& points) const;
+
   PreparationOptions Options;
   vtkNew<vtkPolyData> Input;
   BuildKey InputKey;
@@ -86,6 +104,10 @@ private:
   vtkSmartPointer<vtkCellArray> CleanTriangles;
   vtkSmartPointer<vtkIdTypeArray> PointIds;
   vtkSmartPointer<vtkIdTypeArray> CellIds;
+  std::shared_ptr<const std::vector<std::int32_t>> Kept; ///< for each input point, as CleanedMesh
+  double MergedWithin = 0.0;                             ///< [world unit]
+  std::shared_ptr<const SurfacePreparation> Earlier;
+  Cells CellsOfEarlier = Cells::Other;
 };
 }
 
