@@ -51,31 +51,47 @@ void vtkHapticProbeFiller::SetTick(vtkHapticProbe* probe, const haptics::TickRec
 }
 
 void vtkHapticProbeFiller::SetContact(vtkHapticProbe* probe, const haptics::TickRecord& tick,
-  int surfaceId, vtkIdType cell, std::shared_ptr<const haptics::TriangleSurface> surface,
-  vtkPolyData* prepared)
+  const Touched& touched, vtkPolyData* prepared)
 {
+  const std::shared_ptr<const haptics::TriangleSurface>& surface = touched.Snapshot;
   const haptics::Constraint& constraint = tick.Constraints[0];
   const auto t = static_cast<std::size_t>(constraint.Triangle);
   probe->Touching = true;
-  probe->Surface = surfaceId;
-  probe->Cell = cell;
+  probe->Surface = touched.Surface;
+  probe->Cell = touched.Cell;
   std::copy(constraint.Normal.begin(), constraint.Normal.end(), probe->Normal);
 
   const haptics::Triangle& triangle = surface->Triangles()[t];
   haptics::Vec3 corners[3];
-  haptics::Vec3 local;
   for (std::size_t i = 0; i < 3; ++i)
   {
     corners[i] = surface->Points()[static_cast<std::size_t>(triangle[i])];
-    local[i] = tick.GodObject[i] - surface->Origin()[i];
   }
-  FindWeights(local, corners, probe->Weights);
+  FindWeights(tick.Local, corners, probe->Weights);
+  haptics::Vec3 local{};
+  haptics::Vec3 toTriangle{};
   for (std::size_t i = 0; i < 3; ++i)
   {
-    probe->Position[i] = surface->Origin()[i] + probe->Weights[0] * corners[0][i] +
-      probe->Weights[1] * corners[1][i] + probe->Weights[2] * corners[2][i];
+    const double along = probe->Weights[0] * corners[0][i] + probe->Weights[1] * corners[1][i] +
+      probe->Weights[2] * corners[2][i];
+    local[i] = surface->Origin()[i] + along;
+    toTriangle[i] = along - tick.Local[i];
   }
-  probe->Where = { surface, constraint.Triangle };
+  // The way to the triangle is about as short as the clearance, so a pose that is a little older
+  // or newer than the tick does as well. One that was never moved is told exactly.
+  const bool isMoved = touched.Pose != haptics::RigidPose();
+  const haptics::Vec3 turned = touched.Pose.VectorToWorld(toTriangle);
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    probe->Position[i] = isMoved ? tick.GodObject[i] + turned[i] : local[i];
+  }
+  haptics::RigidPose pose = touched.Pose;
+  const haptics::Vec3 turnedLocal = pose.VectorToWorld(local);
+  for (std::size_t i = 0; isMoved && i < 3; ++i)
+  {
+    pose.Translation[i] = probe->Position[i] - turnedLocal[i];
+  }
+  probe->Where = { surface, constraint.Triangle, local, pose };
 
   if (!prepared ||
     prepared->GetNumberOfPolys() != static_cast<vtkIdType>(surface->Triangles().size()))

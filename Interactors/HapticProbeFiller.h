@@ -1,6 +1,7 @@
 #ifndef HapticProbeFiller_h
 #define HapticProbeFiller_h
 
+#include "RigidPose.h"
 #include "TickRecord.h"
 #include "TriangleSurface.h"
 #include "vtkHapticProbe.h"
@@ -13,10 +14,18 @@ class vtkHapticProbeFiller
 public:
   /// What every tick tells, with or without a contact.
   static void SetTick(vtkHapticProbe* probe, const haptics::TickRecord& tick);
+  /// What a tick's first constraint belongs to.
+  struct Touched
+  {
+    int Surface;    ///< id
+    vtkIdType Cell; ///< as it was given
+    std::shared_ptr<const haptics::TriangleSurface> Snapshot;
+    haptics::RigidPose Pose; ///< about as it was in the tick
+  };
   /// Where the tick's first constraint lies on the surface that it names. `prepared`, which may be
   /// null, has the surface's triangles in the same order, with the arrays.
-  static void SetContact(vtkHapticProbe* probe, const haptics::TickRecord& tick, int surfaceId,
-    vtkIdType cell, std::shared_ptr<const haptics::TriangleSurface> surface, vtkPolyData* prepared);
+  static void SetContact(vtkHapticProbe* probe, const haptics::TickRecord& tick,
+    const Touched& touched, vtkPolyData* prepared);
 };
 
 #endif

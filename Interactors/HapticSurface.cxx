@@ -13,18 +13,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace haptics
 {
 namespace
 {
-/// Equal, where a NaN equals itself: a matrix that stays broken has not moved.
-bool IsSame(const Matrix4& a, const Matrix4& b)
-{
-  return std::equal(a.begin(), a.end(), b.begin(),
-    [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); });
-}
+/// [s]: a surface whose next update comes later than this has rested before it.
+constexpr double LongestDuration = 0.1;
 }
 
 HapticSurface::HapticSurface(int id, vtkActor* actor)
@@ -116,12 +113,13 @@ Matrix4 HapticSurface::CurrentMatrix()
 bool HapticSurface::Pull(const PullSettings& settings, std::string& error)
 {
   const Snapshot before = this->Touched();
+  this->IsElsewhere = false;
   this->Shown = !this->Source || (this->Source->GetVisibility() && this->Source->GetPickable());
   if (this->Build && this->Build->IsDone())
   {
-    this->TakeBuild(error);
+    this->TakeBuild(settings, error);
   }
-  if (!this->Shown || this->Build)
+  if (!this->Shown)
   {
     return this->Touched() != before;
   }
@@ -137,20 +135,28 @@ bool HapticSurface::Pull(const PullSettings& settings, std::string& error)
   }
   this->LastConnectError.clear();
 
-  const Version version = this->Current();
   const Matrix4 matrix = this->CurrentMatrix();
-  const bool isNew = !this->Tried || !(version == this->LastTried);
-  const bool hasMoved = !IsSame(matrix, this->LastMatrix);
-  this->Tried = true;
-  this->LastTried = version;
+  const bool hasMoved = !AreSame(matrix, this->LastMatrix);
   this->LastMatrix = matrix;
-  if (isNew)
+  if (hasMoved && this->InForce)
   {
+    this->NeedsBaking = !this->FollowMatrix(settings, error);
+  }
+  const Version version = this->Current();
+  const bool isNew =
+    !this->Tried || !(version == this->LastTried) || (hasMoved && this->WasRefused);
+  if (!this->Build && isNew)
+  {
+    this->Tried = true;
+    this->LastTried = version;
+    this->WasRefused = false;
     this->FollowGeometry(settings, error);
   }
-  else if (hasMoved && this->InForce)
+  if (!this->Build && this->NeedsBaking)
   {
-    this->FollowMatrix(settings, error);
+    this->NeedsBaking = false;
+    this->BuildInput = nullptr;
+    this->StartBuild(settings, this->Base, error);
   }
   return this->Touched() != before;
 }
@@ -172,34 +178,109 @@ void HapticSurface::FollowGeometry(const PullSettings& settings, std::string& er
   if (this->Base && this->Base->Key() == SurfacePreparation::MakeKey(geometry, options))
   {
     this->KeepAttributes(geometry); // a colour has changed, or the like
-    if (this->LastMatrix != this->Baked)
-    {
-      this->FollowMatrix(settings, error);
-    }
     return;
   }
   this->BuildInput = vtkSmartPointer<vtkPolyData>::New();
   this->BuildInput->ShallowCopy(geometry);
-  this->StartBuild(
-    settings, std::make_shared<SurfacePreparation>(geometry, options), this->LastMatrix, error);
+  this->StartBuild(settings, std::make_shared<SurfacePreparation>(geometry, options), error);
 }
 
-void HapticSurface::FollowMatrix(const PullSettings& settings, std::string& error)
+/// False where the snapshot needs another matrix baked into it.
+bool HapticSurface::FollowMatrix(const PullSettings& settings, std::string& error)
 {
-  this->BuildInput = nullptr;
-  this->StartBuild(settings, this->Base, this->LastMatrix, error);
-}
-
-void HapticSurface::StartBuild(const PullSettings& settings,
-  std::shared_ptr<SurfacePreparation> preparation, const Matrix4& matrix, std::string& error)
-{
-  const double determinant = Determinant(matrix);
+  const double determinant = Determinant(this->LastMatrix);
   if (!std::isfinite(determinant) || determinant == 0.0)
   {
-    error = "the actor's matrix flattens it or is not finite; check its scale and user matrix";
+    this->RefuseMatrix(error);
+    return true;
+  }
+  const std::optional<RigidPose> pose = FindPose(this->LastMatrix, this->Baked);
+  if (pose)
+  {
+    this->LastMatrixError.clear();
+    this->MoveTo(*pose, settings, error);
+  }
+  return pose.has_value();
+}
+
+void HapticSurface::RefuseMatrix(std::string& error)
+{
+  const std::string text =
+    "the actor's matrix flattens it or is not finite; check its scale and user matrix";
+  if (text != this->LastMatrixError)
+  {
+    error = text;
+    this->LastMatrixError = text;
+  }
+}
+
+void HapticSurface::MoveTo(const RigidPose& pose, const PullSettings& settings, std::string& error)
+{
+  if (pose == this->Placed)
+  {
     return;
   }
-  this->Build = std::make_shared<SurfaceBuild>(std::move(preparation), matrix);
+  // While updates come with a motion in each, or in every other one, that is how long it takes.
+  const double since = settings.Now - this->LastMoved;
+  double duration = since > 0.0 && since <= LongestDuration ? since : settings.Interval;
+  duration = std::clamp(duration, 0.0, LongestDuration);
+  this->LastMoved = settings.Now;
+  const double needed = this->LengthOfWay(pose) / settings.LargestSpeed;
+  if (!settings.IsLive || needed > LongestDuration)
+  {
+    this->Moving->JumpTo(pose);
+  }
+  else
+  {
+    this->Moving->SetLargestSpeed(settings.LargestSpeed);
+    this->Moving->MoveTo(pose, duration);
+  }
+  this->Placed = pose;
+  this->IsElsewhere = true;
+  const bool isTooFast = settings.IsLive && needed > LongestDuration;
+  if (isTooFast && !this->WasTooFast)
+  {
+    error = "it was moved faster than the 5 m/s in the device's frame that a hand can follow, and "
+            "is put in its new place without pushing the hand there; move it in smaller steps";
+  }
+  this->WasTooFast = isTooFast;
+}
+
+double HapticSurface::LengthOfWay(const RigidPose& pose) const
+{
+  const Vec3 from = this->Placed.PointToWorld(this->InForce->Origin());
+  const Vec3 to = pose.PointToWorld(this->InForce->Origin());
+  double cosine = 0.0;
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    cosine += pose.Rotation[i] * this->Placed.Rotation[i];
+  }
+  const double angle = 2.0 * std::acos(std::min(1.0, std::abs(cosine)));
+  return std::hypot(to[0] - from[0], to[1] - from[1], to[2] - from[2]) +
+    angle * this->InForce->Radius();
+}
+
+void HapticSurface::StartBuild(
+  const PullSettings& settings, std::shared_ptr<SurfacePreparation> preparation, std::string& error)
+{
+  const double determinant = Determinant(this->LastMatrix);
+  if (!std::isfinite(determinant) || determinant == 0.0)
+  {
+    this->WasRefused = true;
+    this->RefuseMatrix(error);
+    return;
+  }
+  // What is in force stays where it is if it can, so that the servo goes on with its motion.
+  Matrix4 baked = this->LastMatrix;
+  if (this->InForce && FindPose(this->LastMatrix, this->Baked))
+  {
+    baked = this->Baked;
+  }
+  else if (FindPose(this->LastMatrix, IdentityMatrix))
+  {
+    baked = IdentityMatrix;
+  }
+  this->Build = std::make_shared<SurfaceBuild>(std::move(preparation), baked);
   if (settings.Worker)
   {
     if (this->Build->Prepares())
@@ -216,10 +297,10 @@ void HapticSurface::StartBuild(const PullSettings& settings,
       return !this->Preparation->GetAbortExecute();
     });
   this->Build->Run();
-  this->TakeBuild(error);
+  this->TakeBuild(settings, error);
 }
 
-void HapticSurface::TakeBuild(std::string& error)
+void HapticSurface::TakeBuild(const PullSettings& settings, std::string& error)
 {
   const std::shared_ptr<SurfaceBuild> done = std::exchange(this->Build, nullptr);
   this->PreparationError.clear();
@@ -236,6 +317,7 @@ void HapticSurface::TakeBuild(std::string& error)
     return;
   }
   const bool isOtherGeometry = done->Preparation() != this->Base;
+  const bool isOtherFrame = !this->InForce || !AreSame(done->Matrix(), this->Baked);
   this->InForce = done->Snapshot();
   this->Base = done->Preparation();
   this->Baked = done->Matrix();
@@ -243,6 +325,15 @@ void HapticSurface::TakeBuild(std::string& error)
   {
     this->KeepCellIds();
     this->KeepAttributes(this->BuildInput);
+  }
+  if (isOtherFrame)
+  {
+    // Where the actor has been squeezed meanwhile, the next build is for that.
+    this->Placed = FindPose(this->LastMatrix, this->Baked).value_or(this->Placed);
+    this->Moving = this->Source ? std::make_shared<SurfaceMotion>(
+                                    this->Placed, this->InForce->Origin(), this->InForce->Radius())
+                                : nullptr;
+    this->LastMoved = settings.Now;
   }
 }
 
@@ -262,7 +353,10 @@ void HapticSurface::AddBounds(vtkBoundingBox& box) const
     const Vec3& origin = touched->Origin();
     for (const Vec3& point : touched->Points())
     {
-      box.AddPoint(point[0] + origin[0], point[1] + origin[1], point[2] + origin[2]);
+      box.AddPoint(
+        this->Placed
+          .PointToWorld({ point[0] + origin[0], point[1] + origin[1], point[2] + origin[2] })
+          .data());
     }
   }
   else if (this->Build && this->BuildInput)
@@ -272,7 +366,7 @@ void HapticSurface::AddBounds(vtkBoundingBox& box) const
     {
       Vec3 corner;
       local.GetCorner(i, corner.data());
-      box.AddPoint(Transformed(this->Build->Matrix(), corner).data());
+      box.AddPoint(Transformed(this->LastMatrix, corner).data());
     }
   }
 }

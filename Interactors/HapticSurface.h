@@ -2,6 +2,7 @@
 #define HapticSurface_h
 
 #include "SurfaceBuild.h"
+#include "SurfaceMotion.h"
 #include "TriangleSurface.h"
 #include "vtkActor.h"
 #include "vtkNew.h"
@@ -26,12 +27,22 @@ struct PullSettings
 {
   /// Builds beside the GUI thread; null: each Pull() builds what it needs.
   BackgroundWorker* Worker = nullptr;
+  /// Whether a servo ticks; where not, what moves is in its new place at once.
+  bool IsLive = false;
+  double Now = 0.0;          ///< the servo's time [s]
+  double Interval = 0.0;     ///< since the Pull() before [s]
+  double LargestSpeed = 0.0; ///< that a hand can follow [world unit / s]
 };
 
 /// @brief One surface of a vtkHapticScene: where it comes from and the snapshot in force.
 ///
-/// The geometry is prepared as a vtkGodObjectFilter of its own says, the actor's matrix is applied
-/// to what came out: so an actor that moves costs a new engine, but no second clean-up. GUI thread.
+/// The geometry is prepared as a vtkGodObjectFilter of its own says. The actor's matrix is split:
+///
+///     matrix = Pose() * baked
+///
+/// The pose is rigid and goes to the servo as it is, so an actor that is dragged costs nothing
+/// but that. Scale, shear and mirror are baked into the snapshot's points: where they change a new
+/// engine is built, without a second clean-up. GUI thread.
 class HapticSurface
 {
 public:
@@ -64,12 +75,20 @@ public:
   /// Gives up the build: what is in force stays until the geometry changes again.
   void CancelBuild();
 
+  /// Whether the last Pull() found it in another place.
+  bool HasMoved() const { return this->IsElsewhere; }
+  /// Where the snapshot's frame is in the world, as of the last Pull(). The servo gets there later,
+  /// by the interval between two calls.
+  const RigidPose& Pose() const { return this->Placed; }
+  /// What the servo follows; null where the surface has no actor.
+  std::shared_ptr<SurfaceMotion> Motion() const { return this->Moving; }
+
   /// What is touched; null while the surface is hidden or was never any good.
   Snapshot Touched() const { return this->Shown ? this->InForce : nullptr; }
   /// Adds the world's bounds of what is touched, or while that is null of what is being built.
   void AddBounds(vtkBoundingBox& box) const;
   /// The geometry in force, its triangles in the snapshot's order, with its arrays as they were at
-  /// the last Pull(); not moved by the actor's matrix. Null where it was never any good.
+  /// the last Pull(); not changed by the actor's matrix. Null where it was never any good.
   vtkPolyData* Prepared() const { return this->Kept; }
   /// For each triangle of the snapshot in force the id of its cell in the geometry given.
   CellIds OriginalCellIds() const { return this->Ids; }
@@ -92,10 +111,13 @@ private:
   Version Current();
   Matrix4 CurrentMatrix();
   void FollowGeometry(const PullSettings& settings, std::string& error);
-  void FollowMatrix(const PullSettings& settings, std::string& error);
+  bool FollowMatrix(const PullSettings& settings, std::string& error);
+  void RefuseMatrix(std::string& error);
+  double LengthOfWay(const RigidPose& pose) const;
+  void MoveTo(const RigidPose& pose, const PullSettings& settings, std::string& error);
   void StartBuild(const PullSettings& settings, std::shared_ptr<SurfacePreparation> preparation,
-    const Matrix4& matrix, std::string& error);
-  void TakeBuild(std::string& error);
+    std::string& error);
+  void TakeBuild(const PullSettings& settings, std::string& error);
   void KeepAttributes(vtkPolyData* geometry);
   void KeepCellIds();
   static void KeepError(vtkObject* caller, unsigned long event, void* clientData, void* text);
@@ -110,6 +132,7 @@ private:
   Version LastTried;
   Matrix4 LastMatrix = IdentityMatrix;
   std::string LastConnectError;
+  std::string LastMatrixError;
   std::string PreparationError;
   std::shared_ptr<SurfaceBuild> Build;
   vtkSmartPointer<vtkPolyData> BuildInput; ///< with the arrays as they were when it started
@@ -117,6 +140,13 @@ private:
   Snapshot InForce;
   std::shared_ptr<SurfacePreparation> Base; ///< what InForce was made of
   Matrix4 Baked = IdentityMatrix;           ///< and by which matrix
+  std::shared_ptr<SurfaceMotion> Moving;
+  RigidPose Placed;
+  bool IsElsewhere = false;
+  double LastMoved = 0.0; ///< the servo's time [s]
+  bool WasTooFast = false;
+  bool NeedsBaking = false;
+  bool WasRefused = false; ///< a geometry, for the matrix
   CellIds Ids;
   vtkSmartPointer<vtkPolyData> Kept;
 };

@@ -50,7 +50,7 @@ void SceneEvents::Take(const TickRecord& tick, const SurfaceSet& surfaces, vtkHa
   if (touching && !this->LastTouch)
   {
     this->AddProbe(vtkHapticScene::ContactBeginEvent, &tick, &surfaces, scene);
-    this->SlidFrom = tick.GodObject;
+    this->SlidFrom = tick.Local;
   }
   else if (!touching && this->LastTouch)
   {
@@ -74,9 +74,9 @@ void SceneEvents::Take(const TickRecord& tick, const SurfaceSet& surfaces, vtkHa
 
 void SceneEvents::EndOfTicks(const SurfaceSet& surfaces, vtkHapticScene* scene)
 {
-  if (this->LastTouch && this->LastTouch->GodObject != this->SlidFrom)
+  if (this->LastTouch && this->LastTouch->Local != this->SlidFrom)
   {
-    this->SlidFrom = this->LastTouch->GodObject;
+    this->SlidFrom = this->LastTouch->Local;
     this->AddProbe(vtkHapticScene::ContactSlideEvent, &*this->LastTouch, &surfaces, scene);
   }
 }

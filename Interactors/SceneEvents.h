@@ -55,7 +55,7 @@ private:
   std::vector<Event> Pending;
   std::vector<Press> Presses;
   std::optional<TickRecord> LastTouch; ///< the latest tick, where it touched
-  Vec3 SlidFrom{};                     ///< the god-object when contact began or last slid
+  Vec3 SlidFrom{};                     ///< TickRecord::Local when contact began or last slid
   bool Overloaded = false;
   std::uint32_t Buttons = 0;
 };

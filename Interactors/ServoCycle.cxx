@@ -134,6 +134,10 @@ void ServoCycle::Record(NumberedGodObject& god, const Vec3& force) noexcept
   this->Now.WorldForce = this->NextSettings.Get().DeviceToWorld.DirectionToWorld(force);
   this->Now.Hip = contact.Hip;
   this->Now.GodObject = contact.Position;
+  if (contact.NumberOfConstraints > 0)
+  {
+    this->Now.Local = god.Object->LocalPosition(contact.Constraints[0].Surface);
+  }
   this->Now.Penetration = contact.Penetration;
   this->Now.Status = contact.Status;
   this->Now.NumberOfConstraints = contact.NumberOfConstraints;

@@ -7,19 +7,6 @@
 
 namespace haptics
 {
-Vec3 Transformed(const Matrix4& m, const Vec3& p)
-{
-  return { m[0] * p[0] + m[1] * p[1] + m[2] * p[2] + m[3],
-    m[4] * p[0] + m[5] * p[1] + m[6] * p[2] + m[7],
-    m[8] * p[0] + m[9] * p[1] + m[10] * p[2] + m[11] };
-}
-
-double Determinant(const Matrix4& m)
-{
-  return m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) +
-    m[2] * (m[4] * m[9] - m[5] * m[8]);
-}
-
 SurfaceBuild::SurfaceBuild(std::shared_ptr<SurfacePreparation> preparation, const Matrix4& matrix)
   : Prepared(std::move(preparation))
   , Baked(matrix)

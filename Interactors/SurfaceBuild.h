@@ -1,11 +1,11 @@
 #ifndef SurfaceBuild_h
 #define SurfaceBuild_h
 
+#include "ActorMatrix.h"
 #include "BackgroundWorker.h"
 #include "SurfacePreparation.h"
 #include "TriangleSurface.h"
 
-#include <array>
 #include <functional>
 #include <memory>
 #include <string>
@@ -13,15 +13,6 @@
 
 namespace haptics
 {
-/// A 4 by 4 matrix, row by row.
-using Matrix4 = std::array<double, 16>;
-constexpr Matrix4 IdentityMatrix{ 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 };
-
-Vec3 Transformed(const Matrix4& matrix, const Vec3& point);
-/// The determinant of a matrix without its translation: its sign tells of a mirror, 0 that it
-/// flattens.
-double Determinant(const Matrix4& matrix);
-
 /// @brief From a geometry and a matrix to a snapshot, on any thread.
 class SurfaceBuild : public BackgroundTask
 {

@@ -1,6 +1,7 @@
 #include "SurfaceSet.h"
 
 #include "HapticProbeFiller.h"
+#include "SurfaceRay.h"
 #include "vtkActor.h"
 
 #include <algorithm>
@@ -62,6 +63,7 @@ bool SurfaceSet::Pull(const PullSettings& settings, std::vector<std::string>& er
     if (!error.empty())
     {
       errors.push_back("Surface " + std::to_string(surface->Id()) + ": " + error +
+        (error.back() == '.' ? "" : ".") +
         (surface->Touched() ? " What was touched before stays in force."
                             : " It cannot be touched."));
     }
@@ -69,6 +71,12 @@ bool SurfaceSet::Pull(const PullSettings& settings, std::vector<std::string>& er
   this->Changed = false;
   this->BuildsStarted = this->IsBuilding() ? this->BuildsStarted : 0;
   return changed;
+}
+
+bool SurfaceSet::HaveMoved() const
+{
+  return std::any_of(this->Surfaces.begin(), this->Surfaces.end(),
+    [](const std::unique_ptr<HapticSurface>& surface) { return surface->HasMoved(); });
 }
 
 bool SurfaceSet::IsBuilding() const
@@ -103,11 +111,27 @@ std::vector<TouchedSurface> SurfaceSet::Touched() const
   {
     if (HapticSurface::Snapshot snapshot = surface->Touched())
     {
-      touched.emplace_back(std::move(snapshot));
+      touched.emplace_back(std::move(snapshot), surface->Motion());
       touched.back().Identity = static_cast<std::uint64_t>(surface->Id()) + 1; // 0 is nobody
     }
   }
   return touched;
+}
+
+std::optional<double> SurfaceSet::CastRay(const Vec3& from, const Vec3& direction) const
+{
+  std::optional<double> nearest;
+  for (const auto& surface : this->Surfaces)
+  {
+    if (const HapticSurface::Snapshot snapshot = surface->Touched())
+    {
+      const RigidPose& pose = surface->Pose();
+      const std::optional<double> t =
+        haptics::CastRay(*snapshot, pose.PointToSurface(from), pose.VectorToSurface(direction));
+      nearest = t && (!nearest || *t < *nearest) ? t : nearest;
+    }
+  }
+  return nearest;
 }
 
 void SurfaceSet::Published(std::uint64_t generation)
@@ -157,8 +181,10 @@ void SurfaceSet::Probe(const TickRecord& tick, vtkHapticProbe* probe) const
     // The arrays are those of now; where the geometry has changed since there are none for it.
     const HapticSurface* surface = this->Find(entry->Id);
     const bool unchanged = surface && surface->Touched() == entry->Touched;
-    vtkHapticProbeFiller::SetContact(probe, tick, entry->Id, this->Locate(tick).Cell,
-      entry->Touched, unchanged ? surface->Prepared() : nullptr);
+    vtkHapticProbeFiller::SetContact(probe, tick,
+      { entry->Id, this->Locate(tick).Cell, entry->Touched,
+        surface ? surface->Pose() : RigidPose() },
+      unchanged ? surface->Prepared() : nullptr);
   }
 }
 
@@ -167,7 +193,9 @@ std::vector<Vec3> SurfaceSet::ActiveCorners(const TickRecord& tick) const
   std::vector<Vec3> corners;
   for (int i = 0; i < tick.NumberOfConstraints; ++i)
   {
-    if (const Entry* entry = this->Find(tick, i))
+    const Entry* entry = this->Find(tick, i);
+    const HapticSurface* shown = entry ? this->Find(entry->Id) : nullptr;
+    if (shown)
     {
       const TriangleSurface& surface = *entry->Touched;
       for (const std::int32_t corner :
@@ -175,7 +203,7 @@ std::vector<Vec3> SurfaceSet::ActiveCorners(const TickRecord& tick) const
       {
         const Vec3& p = surface.Points()[static_cast<std::size_t>(corner)];
         const Vec3& o = surface.Origin();
-        corners.push_back({ p[0] + o[0], p[1] + o[1], p[2] + o[2] });
+        corners.push_back(shown->Pose().PointToWorld({ p[0] + o[0], p[1] + o[1], p[2] + o[2] }));
       }
     }
   }

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,8 @@ public:
   /// appended to `errors`, naming its surface.
   bool Pull(const PullSettings& settings, std::vector<std::string>& errors);
 
+  /// Whether a surface that can be touched was in another place at the last Pull().
+  bool HaveMoved() const;
   /// Whether a surface is being built beside the GUI thread.
   bool IsBuilding() const;
   /// 0 to 1, over all that is being built or was since nothing was; 1 where nothing is.
@@ -57,6 +60,8 @@ public:
 
   /// What a god-object is to touch now.
   std::vector<TouchedSurface> Touched() const;
+  /// Where a ray first meets what is touched, in lengths of `direction`; world frame.
+  std::optional<double> CastRay(const Vec3& from, const Vec3& direction) const;
   /// Remembers what Touched() gave under the number it was published with.
   void Published(std::uint64_t generation);
   /// Forgets what was published before `generation`.
@@ -66,7 +71,8 @@ public:
   SceneCell Locate(const TickRecord& tick) const;
   /// Fills a new probe with what a tick touched.
   void Probe(const TickRecord& tick, vtkHapticProbe* probe) const;
-  /// The corners of the triangles that hold the god-object in a tick, world frame, three each.
+  /// The corners of the triangles that hold the god-object in a tick, three each; world frame,
+  /// where their surfaces are shown now.
   std::vector<Vec3> ActiveCorners(const TickRecord& tick) const;
 
 private:

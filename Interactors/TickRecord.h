@@ -19,8 +19,11 @@ struct TickRecord
   std::uint32_t Buttons = 0; ///< bit i is set while button i is held
   Vec3 Force{};              ///< asked for, device frame [N]
 
-  Vec3 Hip{};               ///< world frame
-  Vec3 GodObject{};         ///< world frame
+  Vec3 Hip{};       ///< world frame
+  Vec3 GodObject{}; ///< world frame
+  /// The god-object in the frame of the first constraint's surface, relative to that snapshot's
+  /// Origin(); surfaces move, this stays with them.
+  Vec3 Local{};
   Vec3 WorldForce{};        ///< the force along the world's axes [N]
   double Penetration = 0.0; ///< |god-object - HIP| [world unit]
 

@@ -201,7 +201,7 @@ double vtkHapticLandmarks::GetGeodesicDistance(int first, int second, vtkPolyDat
     vtkHapticProbe* probe = this->GetLandmark(number);
     haptics::SurfacePoint point;
     point.Triangle = probe->GetContact().Triangle;
-    probe->GetPosition(point.Position.data());
+    point.Position = probe->GetContact().Position;
     return point;
   };
   const auto& surface = this->GetLandmark(second)->GetContact().Touched;
@@ -220,9 +220,10 @@ double vtkHapticLandmarks::GetGeodesicDistance(int first, int second, vtkPolyDat
     points->SetDataTypeToDouble();
     vtkNew<vtkCellArray> lines;
     lines->InsertNextCell(static_cast<int>(found.Points.size()));
+    const haptics::RigidPose& pose = this->GetLandmark(second)->GetContact().Pose;
     for (const haptics::Vec3& point : found.Points)
     {
-      lines->InsertCellPoint(points->InsertNextPoint(point.data()));
+      lines->InsertCellPoint(points->InsertNextPoint(pose.PointToWorld(point).data()));
     }
     path->SetPoints(points);
     if (!found.Points.empty())

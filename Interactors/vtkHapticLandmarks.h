@@ -3,7 +3,7 @@
  * @brief   Points marked by touch, each exactly on a surface: a list, its export, their distances.
  *
  * A vtkHapticScene drops one where the hand touches, on a button of the device or on request. They
- * stay where they were dropped when the surface changes or goes away.
+ * stay where they were dropped when the surface moves, changes or goes away.
  *
  * Positions and lengths are in the world frame [world unit]. GUI thread.
  *
@@ -58,9 +58,11 @@ public:
    * Between two landmarks along the surface that both were dropped on [world unit], as the surface
    * was when the second one was dropped: a shortest way over its triangles, exact within those that
    * it crosses, and never shorter than the shortest of all. Against known lengths (a prism of thin
-   * triangles, a sphere) it was at most 0.4 % longer. Infinite where the surface's parts do not hang together; NaN and an error where
-   * they lie on two surfaces, or the surface was moved or changed in between. Takes about as long
-   * as building the surface did. `path`, where given, becomes the way as a polyline.
+   * triangles, a sphere) it was at most 0.4 % longer. Infinite where the surface's parts do not hang
+   * together; NaN and an error where they lie on two surfaces, or the surface was scaled or changed
+   * in between; one that was moved or turned is still the same. Takes about as long as building the
+   * surface did. `path`, where given, becomes the way as a polyline, where the surface was for the
+   * second landmark.
    */
   double GetGeodesicDistance(int first, int second, vtkPolyData* path = nullptr);
 

@@ -23,6 +23,7 @@
 #include <string>
 
 #ifndef __VTK_WRAP__
+#include "RigidPose.h"       // for haptics::RigidPose
 #include "TriangleSurface.h" // for haptics::TriangleSurface
 
 #include <memory>
@@ -69,8 +70,10 @@ public:
   /** The contact on the surface itself, in C++ only. */
   struct Contact
   {
-    std::shared_ptr<const haptics::TriangleSurface> Touched; ///< world frame
+    std::shared_ptr<const haptics::TriangleSurface> Touched; ///< in a frame of its own
     int Triangle = -1;                                       ///< of it
+    haptics::Vec3 Position{};                                ///< GetPosition() in that frame
+    haptics::RigidPose Pose;                                 ///< from that frame to the world
   };
   const Contact& GetContact() const
   {

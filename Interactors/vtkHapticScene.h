@@ -89,6 +89,11 @@ public:
    * pickability; one that is hidden or not pickable is not touched. Adding it again returns the id
    * that it has. Geometry given directly is in the world frame.
    *
+   * One that is dragged or turned gets to its new place over the time between two updates, at most
+   * 0.1 s, and takes the hand along or pushes it. What would have to be faster than 5 m/s in the
+   * device's frame takes longer; what would take more than 0.1 s is an error, and is put there
+   * without pushing anything.
+   *
    * Of an assembly every actor becomes a surface, with an id of its own, at the place where the
    * assembly has it; parts that come, go, move, are shown or hidden are followed. The id returned
    * is the assembly's as a whole, to remove it.

@@ -2,17 +2,23 @@
 #include "vtkHapticScene.h"
 
 #include "HapticSceneInternals.h"
-#include "SurfaceRay.h"
 #include "vtkActor.h"
 #include "vtkAlgorithmOutput.h"
 #include "vtkAssembly.h"
 #include "vtkGodObjectFilter.h"
 #include "vtkHapticServo.h"
+#include "vtkMatrix4x4.h"
 #include "vtkPolyData.h"
 #include "vtkTrivialProducer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
+
+namespace
+{
+constexpr double LargestSpeed = 5.0; ///< of a surface that pushes a hand, device frame [m/s]
+}
 
 int vtkHapticScene::AddSurface(vtkActor* actor)
 {
@@ -230,6 +236,11 @@ bool vtkHapticScene::PullSurfaces()
   this->Internal->Worker.Collect();
   haptics::PullSettings settings;
   settings.Worker = this->Internal->BackgroundBuilding ? &this->Internal->Worker : nullptr;
+  const int state = this->Servo->GetState();
+  settings.IsLive = state == vtkHapticServo::Running || state == vtkHapticServo::Stepping;
+  settings.Now = this->Servo->GetTime();
+  settings.Interval = settings.Now - std::exchange(this->Internal->LastPull, settings.Now);
+  settings.LargestSpeed = LargestSpeed * std::cbrt(this->Workspace->Determinant());
   std::vector<std::string> errors;
   haptics::SurfaceSet& surfaces = this->Internal->Surfaces;
   for (haptics::HapticAssembly& assembly : this->Internal->Assemblies)
@@ -259,21 +270,13 @@ bool vtkHapticScene::PullSurfaces()
     this->InvokeEvent(vtkHapticScene::SurfaceErrorEvent);
   }
   this->TellOfBuilds();
-  return changed;
+  return changed || surfaces.HaveMoved();
 }
 
 bool vtkHapticScene::IntersectRay(const double from[3], const double direction[3], double hit[3])
 {
-  std::optional<double> nearest;
-  for (const haptics::TouchedSurface& touched : this->Internal->Surfaces.Touched())
-  {
-    const std::optional<double> t = haptics::CastRay(*touched.Surface,
-      { { from[0], from[1], from[2] } }, { { direction[0], direction[1], direction[2] } });
-    if (t && (!nearest || *t < *nearest))
-    {
-      nearest = t;
-    }
-  }
+  const std::optional<double> nearest = this->Internal->Surfaces.CastRay(
+    { { from[0], from[1], from[2] } }, { { direction[0], direction[1], direction[2] } });
   for (int i = 0; nearest && i < 3; ++i)
   {
     hit[i] = from[i] + *nearest * direction[i];

@@ -9,6 +9,7 @@ haptics_add_gtest(TestHapticScene
   TestHapticSceneAssemblies.cxx
   TestHapticSceneBadInput.cxx
   TestHapticSceneWorkspace.cxx
+  TestMovingActors.cxx
   TestSceneEvents.cxx
   LIBRARIES Haptics::Devices Haptics::Filters Haptics::Interactors VTK::FiltersSources
             VTK::RenderingOpenGL2)

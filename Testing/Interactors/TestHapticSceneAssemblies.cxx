@@ -35,6 +35,7 @@ struct Robot
 double Feel(LedHand& hand)
 {
   hand.MoveTo(0.3);
+  hand.Scene->Step(100); // what was moved gets there at 5 m/s at most
   hand.MoveTo(-0.3);
   const double height = hand.GodObjectHeight();
   hand.MoveTo(0.3);

@@ -89,6 +89,7 @@ TEST(MouseHapticDevice, TheSpaceBarPressesFollowsTheSurfaceAndLiftsOff)
   MouseWindow window;
   window.Table->RotateX(20.0); // a plane of the view would leave it
   window.Timer();
+  window.Hand.Scene->Step(100); // the table turns at 5 m/s at most
   window.Send(vtkCommand::MouseMoveEvent, 50, 50);
   window.Send(vtkCommand::KeyPressEvent, 50, 50, "space");
   for (const int y : { 50, 40, 30 })
