@@ -127,10 +127,11 @@ Trace AlongCracks(ContactMethod& method, int ticks)
 
 Trace AcrossValley(ContactMethod& method, int ticks)
 {
-  std::vector<Vec3> path{ { 0, 0.001, 0.01 }, { 0, 0.001, 0.001 } };
+  std::vector<Vec3> path{ { -0.004, 0.001, 0.01 } };
+  GoTo(path, { -0.004, 0.001, -0.02 }, 60);
   for (int i = 0; i < ticks; ++i)
   {
-    path.push_back({ 5e-5 * i, 0.001, -0.02 });
+    path.push_back({ 5e-5 * i - 0.004, 0.001, -0.02 });
   }
   return Along(method, path, SurfaceStiffness);
 }
@@ -155,12 +156,10 @@ Trace IntoCorner(ContactMethod& method)
 
 Trace AroundEdge(ContactMethod& method)
 {
-  // Past the edge of Box(0.02, ...) at 0.2 m/s, down along its side and back into it.
-  std::vector<Vec3> path{ { 0.0150, 0.001, 0.021 } };
-  GoTo(path, { 0.0170, 0.001, 0.0185 }, 15);
-  GoTo(path, { 0.0201, 0.001, 0.0180 }, 16);
-  GoTo(path, { 0.0190, 0.001, 0.0150 }, 16);
-  GoTo(path, { 0.0190, 0.001, 0.0130 }, 10);
+  std::vector<Vec3> path{ { -0.004, 0.001, 0.001 } };
+  GoTo(path, { -0.003, 0.001, -0.004 }, 10);
+  GoTo(path, { 0.003, 0.001, -0.004 }, 20);
+  GoTo(path, { 0.003, 0.001, -0.005 }, 5);
   return Along(method, path, SurfaceStiffness);
 }
 
@@ -169,10 +168,11 @@ MethodPointer Certified(const TriangleMesh& mesh)
   return MakeCertified({ MakeSurface(mesh) });
 }
 
-MethodPointer Paper(const TriangleMesh& mesh, bool iterates)
+MethodPointer Paper(const TriangleMesh& mesh, bool iterates, double grown)
 {
   PaperOptions options;
   options.Iterates = iterates;
+  options.Grown = grown;
   return std::make_unique<PaperMethod<double>>(mesh, options);
 }
 
@@ -269,11 +269,13 @@ const std::vector<Scene>& AllScenes()
       "nearest surface", With([] { return Certified(Box(0.02, 0.02, 0.02)); }, IntoCorner),
       With([] { return Nearest(Box(0.02, 0.02, 0.02)); }, IntoCorner), { 1, 0, 0 },
       { { 0.006, 0.02 }, { 0.02, 0.02 }, { 0.02, 0.012 } } },
-    { "Fig. 5", "Around a convex edge at 0.2 m/s", ours, "one pass a tick",
-      With([] { return Certified(Box(0.02, 0.02, 0.02)); }, AroundEdge),
-      With([] { return MakeCertifiedOfFewPasses<1>({ MakeSurface(Box(0.02, 0.02, 0.02)) }); },
-        AroundEdge),
-      { 1, 0, 0 }, { { 0.014, 0.02 }, { 0.02, 0.02 }, { 0.02, 0.012 } } },
+    { "Fig. 5", "Over a convex edge of 150 deg at 0.3 m/s, one step a tick", ours,
+      "one pass a tick", With([] { return Certified(Ridge(150, 0.02)); }, AroundEdge),
+      With(
+        [] { return MakeCertifiedOfFewPasses<1>({ MakeSurface(Ridge(150, 0.02)) }); }, AroundEdge),
+      { 1, 0, 0 },
+      { { -0.005, -0.005 * std::tan(15 * Degree) }, { 0, 0 },
+        { 0.005, -0.005 * std::tan(15 * Degree) } } },
   };
   return scenes;
 }

@@ -50,12 +50,12 @@ Trace AcrossValley(ContactMethod& method, int ticks);
 Trace IntoSheets(ContactMethod& method);
 /// Into the top of a box near its corner and, inside, to where its side is nearer: Fig. 2.
 Trace IntoCorner(ContactMethod& method);
-/// Around a convex edge of a box: Fig. 5.
+/// Over the edge of Ridge(150, ...), 4 mm below it: Fig. 5.
 Trace AroundEdge(ContactMethod& method);
 
 /// Shortcuts for the methods that the scenes compare.
 MethodPointer Certified(const TriangleMesh& mesh);
-MethodPointer Paper(const TriangleMesh& mesh, bool iterates);
+MethodPointer Paper(const TriangleMesh& mesh, bool iterates, double grown = 0.0);
 MethodPointer Nearest(const TriangleMesh& mesh);
 /// The two sides of a valley, `degrees` between their normals, as objects of their own.
 MethodPointer CertifiedValley(double degrees);

@@ -1,5 +1,5 @@
 // Runs the suite's scenes and writes what happened, for Testing/Benchmarks/charts.py to draw.
-// Usage: HapticsSceneTraces FOLDER      writes scenes.csv and traces.csv there
+// Usage: HapticsSceneTraces FOLDER      writes scenes.csv, traces.csv and ratios.csv there
 #include "AnalyticSurfaces.h"
 #include "Scenes.h"
 
@@ -40,13 +40,23 @@ void WriteRun(std::FILE* file, const Scene& scene, const char* run, const Trace&
       Dot(tick.Force, scene.Axis));
   }
 }
+
+/// Fig. 3: how hard a valley presses on a HIP under its crease, as a multiple of K times the depth.
+double Ratio(const MethodPointer& method)
+{
+  const haptics::Vec3 above{ 0, 0.001, 0.002 };
+  const haptics::Vec3 hip{ 0, 0.001, -0.004 };
+  method->Place(above);
+  return Length(method->Update(hip) - hip) / 0.004;
+}
 }
 
 int main(int argc, char* argv[])
 {
   if (argc != 2 || argv[1][0] == '-')
   {
-    std::printf("Usage: %s FOLDER      writes scenes.csv and traces.csv there\n", argv[0]);
+    std::printf(
+      "Usage: %s FOLDER      writes scenes.csv, traces.csv and ratios.csv there\n", argv[0]);
     return argc == 2 && std::string(argv[1]) == "--help" ? 0 : 2;
   }
   const std::string folder = std::string(argv[1]) + "/";
@@ -64,6 +74,13 @@ int main(int argc, char* argv[])
     }
     WriteRun(traces.get(), scene, "ours", scene.Ours());
     WriteRun(traces.get(), scene, "other", scene.Other());
+  }
+  const File ratios = Open(folder + "ratios.csv");
+  std::fputs("degrees,ours,sum\n", ratios.get());
+  for (int degrees = 0; degrees <= 150; degrees += 10)
+  {
+    std::fprintf(ratios.get(), "%d,%.6f,%.6f\n", degrees, Ratio(CertifiedValley(degrees)),
+      Ratio(SummedValley(degrees)));
   }
   return 0;
 }

@@ -20,6 +20,8 @@ public:
 
   /// Starts anew at a place, as in free space.
   virtual void Place(const Vec3& position) = 0;
+  /// Forgets what it keeps from tick to tick to be faster: as newly made.
+  virtual void Forget() {}
   /// One tick: the point to which the hand is pulled; the HIP itself where nothing is touched.
   virtual Vec3 Update(const Vec3& hip) = 0;
   /// Ticks that found parallel planes and kept the point where it was.

@@ -12,19 +12,22 @@ class GodObjectMethod : public ContactMethod
 {
 public:
   explicit GodObjectMethod(const SurfaceList& surfaces)
-    : Point(std::vector<TouchedSurface>(surfaces.begin(), surfaces.end()))
+    : Touched(surfaces.begin(), surfaces.end())
+    , Point(std::make_unique<God>(Touched))
   {
   }
-  void Place(const Vec3& position) override { this->Point.Place(position); }
+  void Place(const Vec3& position) override { this->Point->Place(position); }
+  void Forget() override { this->Point = std::make_unique<God>(this->Touched); }
   Vec3 Update(const Vec3& hip) override
   {
     // The displacement keeps its digits; in free space it is exactly zero.
-    const Vec3& displacement = this->Point.Update(hip).Displacement;
+    const Vec3& displacement = this->Point->Update(hip).Displacement;
     return { hip[0] + displacement[0], hip[1] + displacement[1], hip[2] + displacement[2] };
   }
 
 private:
-  God Point;
+  std::vector<TouchedSurface> Touched;
+  std::unique_ptr<God> Point;
 };
 }
 

@@ -69,7 +69,8 @@ bool PaperMethod<Real>::IsMet(
   {
     const Vector& corner = facet.Corners[k];
     const Vector edge = facet.Corners[(k + 1) % 3] - corner;
-    if (Dot(facet.Normal, Cross(edge, at - corner)) < 0)
+    const Real reach = static_cast<Real>(this->Options.Grown) * std::sqrt(Dot(edge, edge));
+    if (Dot(facet.Normal, Cross(edge, at - corner)) < -reach)
     {
       return false;
     }

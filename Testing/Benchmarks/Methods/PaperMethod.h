@@ -15,6 +15,9 @@ struct PaperOptions
   double Lowered = 1e-7;
   /// Section 2.2: "iterate the whole process", against the crossing of Fig. 6.
   bool Iterates = false;
+  /// Not in the paper: facets reach so far beyond their edges [m], which closes the crack that the
+  /// lowered planes open under concave edges.
+  double Grown = 0.0;
 };
 
 /// @brief The god-object as Zilles and Salisbury (1995) print it, in float or double.

@@ -1,0 +1,77 @@
+"""The charts keep their form: drawn from fixed numbers they look as in the baselines.
+
+usage: TestCharts.py BASELINE_FOLDER OUTPUT_FOLDER
+"""
+
+import math
+import pathlib
+import sys
+
+import charts
+from vtkmodules.vtkIOImage import vtkPNGReader
+from vtkmodules.vtkTestingRendering import vtkTesting
+
+# Leaves room for another driver's lines and another FreeType's letters; a line or a marker that
+# is missing or has another colour is several times that.
+THRESHOLD = 20.0
+
+
+def write(folder, name, columns, lines):
+    text = "\n".join([",".join(columns)] + [",".join(str(v) for v in line) for line in lines])
+    (folder / (name + ".csv")).write_text("# fixed numbers\n" + text + "\n", encoding="utf-8")
+
+
+def fixed_numbers(folder):
+    methods = []
+    for i, name in enumerate(charts.FAMILY):
+        for j, size in enumerate(charts.SIZES):
+            # Every third method leaks; the last is the most accurate.
+            methods.append((f'"{name}"', size, "pooled", 36000, 0 if i % 3 else 10 * (j + 1),
+                            10.0**(2 - 0.7 * i) * (j + 1), 100.0 * 0.3**i * (j + 1),
+                            2.0 * 3.0**((i + 2 * j) % 7)))
+    write(folder, "methods", ("method", "surface", "kind", "contacts", "leaks", "ep_p99_mm",
+                              "etheta_p99_deg", "p999_us"), methods)
+    write(folder, "cost", ("method", "triangles", "mean_us", "p999_us"),
+          [(f'"{name}"', 10**e, 0.2 * 1.5**i * e, (i + 1) * 2.0**e)
+           for i, name in enumerate(charts.FAMILY) for e in range(2, 8)])
+    write(folder, "detail", ("shape", "how", "triangles", "etheta_p95_deg", "ep_p95_mm"),
+          [(shape, how, n, factor * 100.0 / math.sqrt(n), factor * 10.0 / math.sqrt(n))
+           for shape, how, factor in (("sphere", "subdivided", 1.0), ("sphere", "decimated", 1.5),
+                                      ("pial", "decimated", 6.0), ("gearbox", "decimated", 3.0))
+           for n in (100, 1000, 10000, 100000)])
+    write(folder, "engines", ("method", "triangles", "mean_us", "p999_us"),
+          [(name, n, 0.1 + rise * n / 1e4, 1.0 + rise * n / 1e2)
+           for name, rise in (("BruteForce", 0.2), ("Embree", 0.01))
+           for n in (50, 200, 1000, 5000, 20000)])
+    write(folder, "ratios", ("degrees", "ours", "sum"),
+          [(d, 1.0, 1.0 + math.cos(math.radians(d))) for d in range(0, 151, 10)])
+    write(folder, "scenes", ("scene", "title", "ours", "other", "component"),
+          [("S0", "A fixed scene", "this project", "one that fails", "z")])
+    rows = [("S0", "surface", 0, x, 0, 0, 0, 0) for x in (-10, 10)]
+    for run, factor in (("ours", 1.0), ("other", 0.4)):
+        for k in range(50):
+            t = 0.02 * k
+            rows.append(("S0", run, t, 8.0 * t - 4.0, -5.0 * t, 8.0 * t - 4.0,
+                         -0.5 * k * (factor < 1.0) * t, factor * (2.5 * t + math.sin(9.0 * t))))
+    write(folder, "traces", ("scene", "run", "time_s", "hip_x_mm", "hip_z_mm", "held_x_mm",
+                             "held_z_mm", "force_n"), rows)
+
+
+def looks_alike(picture, baseline, output):
+    reader, testing = vtkPNGReader(), vtkTesting()
+    reader.SetFileName(str(picture))
+    for argument in ("-T", str(output), "-V", str(baseline)):
+        testing.AddArgument(argument)
+    return testing.RegressionTest(reader, THRESHOLD) == vtkTesting.PASSED
+
+
+baselines, output = (pathlib.Path(p).resolve() for p in sys.argv[1:3])
+drawn = output / "Charts"  # vtkTesting leaves files of the same names in `output`
+drawn.mkdir(parents=True, exist_ok=True)
+fixed_numbers(drawn)
+for chart in charts.CHARTS.values():
+    chart(drawn, drawn)
+pictures = ("speed-accuracy", "cost", "detail", "engines", "scene-fig3", "scene-s0")
+failed = [name for name in pictures
+          if not looks_alike(drawn / (name + ".png"), baselines / (name + ".png"), output)]
+sys.exit("do not look as in " + str(baselines) + ": " + ", ".join(failed) if failed else 0)

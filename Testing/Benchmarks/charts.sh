@@ -1,0 +1,73 @@
+#!/bin/sh
+# Measures everything that the charts show, draws them, and fills in the tables of README.md.
+set -eu
+
+usage()
+{
+  cat <<'EOF'
+Usage: sh Testing/Benchmarks/charts.sh [--full] [--draw] [--help]
+
+Runs every method on every surface and every scene of the stability suite, and leaves tables
+(CSV, with machine, compiler and versions) and charts in Testing/Benchmarks/results. Nothing else
+should run on the machine. BUILD=DIR for a build folder other than build/.
+
+  --full   longer strokes, and to ten million triangles: an hour and 4 GB
+  --draw   measure nothing: draw the charts again from the tables that are there
+EOF
+}
+
+full=
+draw=
+for argument; do
+  case $argument in
+    --full) full=--full ;;
+    --draw) draw=yes ;;
+    --help|-h) usage; exit 0 ;;
+    *) usage >&2; exit 2 ;;
+  esac
+done
+
+here=$(cd "$(dirname "$0")" && pwd)
+root=$(cd "$here/../.." && pwd)
+build=${BUILD:-$root/build}
+results=$here/results
+measure=$build/bin/HapticsMeasure
+
+if [ -z "$draw" ]; then
+  if [ ! -x "$measure" ] || [ ! -x "$build/bin/HapticsSceneTraces" ]; then
+    echo "No $measure: build first, for example with sh Testing/test.sh." >&2
+    exit 1
+  fi
+  surfaces=$build/surfaces
+  /usr/bin/python3 "$root/Data/get_surfaces.py" --no-fallback --output "$surfaces" \
+    t13 gearbox pial fault >/dev/null ||
+    echo "Some real surfaces could not be had: the tables will be without them." >&2
+
+  head=$(mktemp)
+  rows=$(mktemp)
+  trap 'rm -f "$head" "$rows"' EXIT
+  {
+    echo "# machine: $(sed -n 's/^model name[^:]*: *//p' /proc/cpuinfo | sort -u | head -1), $(nproc) cores"
+    echo "# system: $(sed -n 's/^PRETTY_NAME="\(.*\)"/\1/p' /etc/os-release)"
+    echo "# compiler: $(c++ --version | head -1), $(sed -n 's/^CMAKE_BUILD_TYPE:STRING=//p' "$build/CMakeCache.txt")"
+    echo "# libraries: $("$measure" --versions)"
+    echo "# commit: $(git -C "$root" rev-parse --short HEAD 2>/dev/null || echo unknown)"
+    echo "# date: $(date +%Y-%m-%d), load when started: $(cut -d ' ' -f 1 /proc/loadavg)"
+    echo "# seed: 11, command: sh Testing/Benchmarks/charts.sh $full"
+  } > "$head"
+  mkdir -p "$results"
+  for part in boundaries engines detail methods cost; do
+    "$measure" "$part" $full --surfaces "$surfaces" > "$rows"
+    cat "$head" "$rows" > "$results/$part.csv"
+  done
+  "$build/bin/HapticsSceneTraces" "$results"
+fi
+
+display=
+if [ -z "${DISPLAY:-}" ]; then
+  display='xvfb-run -a'
+  command -v xvfb-run >/dev/null || { echo "No display, and no xvfb-run: install xvfb." >&2; exit 1; }
+fi
+# The Python that VTK's modules are made for.
+$display /usr/bin/python3 "$here/charts.py" "$results" "$results" --readme "$here/README.md"
+echo "$results"
