@@ -80,7 +80,7 @@ std::vector<BenchmarkSurface> AllBenchmarkSurfaces(const std::string& folder)
       HipPath::Smooth, 0.03 },
     { "sphere 5,120", "analytic", [] { return Icosphere(4, 0.03); }, StrokeKind::Path,
       HipPath::Smooth, 0.03 },
-    { "sphere 81,920", "analytic", [] { return Icosphere(6, 0.03); }, StrokeKind::Path,
+    { "sphere 20,480", "analytic", [] { return Icosphere(5, 0.03); }, StrokeKind::Path,
       HipPath::Smooth, 0.03 },
     { "sphere, at its edges", "analytic", [] { return Icosphere(4, 0.03); }, StrokeKind::Edges,
       HipPath::Smooth, 0.03 },

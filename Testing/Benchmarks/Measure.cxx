@@ -37,7 +37,7 @@ struct Options
   std::string Folder = "build/surfaces";
   bool Full = false;
 
-  int Ticks() const { return this->Full ? 20000 : 3000; }
+  int Ticks() const { return this->Full ? 20000 : 2000; }
   int Replays() const { return this->Full ? 5 : 3; }
 };
 

@@ -2,6 +2,7 @@
 
 #include "AnalyticSurfaces.h"
 #include "CertifiedMethod.h"
+#include "GodObject.h"
 #include "PaperMethod.h"
 #include "ProfileSurfaces.h"
 #include "VectorFields.h"
@@ -144,6 +145,26 @@ Trace IntoSheets(ContactMethod& method)
   return Along(method, path, SurfaceStiffness);
 }
 
+Trace OnRisingPlane(double duration)
+{
+  const auto motion = std::make_shared<SurfaceMotion>(RigidPose{});
+  GodObject god({ { MakeSurface(Square(0.1, 8)), motion } });
+  const Vec3 hip{ 0.013, 0.007, -0.001 };
+  god.Update({ hip[0], hip[1], 0.001 });
+  Trace trace;
+  for (int tick = 0; tick < 400; ++tick)
+  {
+    if (tick % 33 == 0)
+    {
+      motion->MoveTo({ { 0, 0, 0.03 * TickTime * (tick + 33) } }, duration);
+    }
+    god.Advance(TickTime);
+    const Vec3 held = god.Update(hip).Position;
+    trace.push_back({ TickTime * tick, hip, held, 700.0 * (held - hip), 0.0, 0.0 });
+  }
+  return trace;
+}
+
 Trace IntoCorner(ContactMethod& method)
 {
   // Box(0.02, ...): 4 mm under its top, then along to 2 mm from its side.
@@ -256,6 +277,9 @@ const std::vector<Scene>& AllScenes()
       "the paper, iterated", With([] { return Certified(Groove(150, 0.2)); }, AcrossValley, 1600),
       With([] { return Paper(Groove(150, 0.2), true); }, AcrossValley, 1600), { 1, 0, 0 },
       { { -0.05, 0.05 * std::tan(15 * Degree) }, { 0, 0 }, { 0.1, 0.1 * std::tan(15 * Degree) } } },
+    { "S8", "A plane that rises at 30 mm/s, told 30 times a second, under a still hand", ours,
+      "the mesh stepped", [] { return OnRisingPlane(33 * TickTime); },
+      [] { return OnRisingPlane(0.0); }, { 0, 0, 1 }, { { 0.009, 0 }, { 0.017, 0 } } },
     { "S12", "A plane behind 5 ms of delay, pressed by 1 N", "K = 0.5 b/(T/2 + delay)",
       "K = 0.5 (2b/T)",
       With([] { return Certified(Square(0.1)); }, Pressed, 0.5 * LimitAt5ms, 5e-3, 900),

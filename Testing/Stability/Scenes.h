@@ -48,6 +48,9 @@ Trace AlongCracks(ContactMethod& method, int ticks);
 Trace AcrossValley(ContactMethod& method, int ticks);
 /// Through sheets within a few ticks, then 2 mm deep along x.
 Trace IntoSheets(ContactMethod& method);
+/// A still hand 1 mm under a plane that rises at 30 mm/s and is told so every 33 ms: how long it
+/// then takes to get there [s]. This project alone, as no other method here moves.
+Trace OnRisingPlane(double duration);
 /// Into the top of a box near its corner and, inside, to where its side is nearer: Fig. 2.
 Trace IntoCorner(ContactMethod& method);
 /// Over the edge of Ridge(150, ...), 4 mm below it: Fig. 5.
