@@ -8,8 +8,8 @@ using namespace haptics::testing;
 
 namespace
 {
-/// The largest distance from the nearest allowed point: on the crease while x <= d tan(15 deg),
-/// then on the wall.
+/// The largest distance from the nearest allowed point: on the crease while |x| <= d tan(15 deg),
+/// else on a wall.
 double LargestError(const Trace& trace)
 {
   const double phi = 15.0 * M_PI / 180.0;
@@ -17,12 +17,14 @@ double LargestError(const Trace& trace)
   for (const LoopTick& tick : trace)
   {
     const Vec3& hip = tick.Hip;
-    if (hip[2] >= 0.0)
+    const double aside = std::abs(hip[0]);
+    if (hip[2] >= aside * std::tan(phi))
     {
       continue;
     }
-    const double along = std::max(0.0, hip[0] * std::cos(phi) + hip[2] * std::sin(phi));
-    const Vec3 nearest{ along * std::cos(phi), hip[1], along * std::sin(phi) };
+    const double along = std::max(0.0, aside * std::cos(phi) + hip[2] * std::sin(phi));
+    const double x = std::copysign(along * std::cos(phi), hip[0]);
+    const Vec3 nearest{ x, hip[1], along * std::sin(phi) };
     largest = std::max(largest, Length(tick.Held - nearest));
   }
   return largest;
