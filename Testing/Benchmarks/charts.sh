@@ -9,9 +9,10 @@ Usage: sh Testing/Benchmarks/charts.sh [--full] [--draw] [--help]
 
 Runs every method on every surface and every scene of the stability suite, and leaves tables
 (CSV, with machine, compiler and versions) and charts in Testing/Benchmarks/results. Nothing else
-should run on the machine. BUILD=DIR for a build folder other than build/.
+should run on the machine; it takes some three minutes and 4 GB.
+BUILD=DIR for a build folder other than build/.
 
-  --full   longer strokes, and to ten million triangles: an hour and 4 GB
+  --full   ten times longer strokes: half an hour
   --draw   measure nothing: draw the charts again from the tables that are there
 EOF
 }

@@ -36,6 +36,11 @@ def degrees(value):
     return "< 0.01" if value < 0.01 else f"{value:.2g}" if value < 9.95 else f"{value:.0f}"
 
 
+def plain(value):
+    """Two digits, without an exponent."""
+    return f"{value:.2g}" if 0.001 < value < 99.5 else f"{value:,.0f}"
+
+
 def leaks(results):
     """The leak table (d): every method over all surfaces."""
     table = {r["method"]: r for r in rows(results, "methods")
@@ -52,7 +57,7 @@ def leaks(results):
             rate = short(per_hour(r)) if r["leaks"] else "0"
             lines.append(
                 f"| {label} | {r['leaks']:.0f} of {short(r['contacts'])} ticks | {rate} "
-                f"| {r['force_error_max_n']:.2g} N | {microns(r['ep_p99_mm'])} um "
+                f"| {plain(r['force_error_max_n'])} N | {microns(r['ep_p99_mm'])} um "
                 f"| {degrees(r['etheta_p99_deg'])} deg | {r['p50_us']:.3g} us "
                 f"| {r['p999_us']:.3g} us | {min(stable.get(name, [0])):.2f} |")
     return lines
@@ -69,13 +74,12 @@ def surfaces(results):
              "| this project: leaks, E_p max |", "|---|---|---|---|---|---|---|---|"]
     for surface in dict.fromkeys(r["surface"] for r in table):
         of = {r["method"]: r for r in table if r["surface"] == surface}
-        if all(name in of for name in shown):
-            cells = [f"{of[name]['leaks']:.0f}" for name in shown[:2]] + [
-                f"{of[name]['leaks']:.0f}, {microns(of[name]['ep_max_mm'])} um"
-                for name in shown[2:]]
-            first = of[shown[0]]
-            lines.append(f"| {surface} ({first['kind']}) | {first['triangles']:,.0f} "
-                         f"| {first['contacts']:,.0f} | " + " | ".join(cells) + " |")
+        cells = [f"{of[name]['leaks']:.0f}" if name in of else "" for name in shown[:2]] + [
+            f"{of[name]['leaks']:.0f}, {microns(of[name]['ep_max_mm'])} um" if name in of else ""
+            for name in shown[2:]]
+        ours = of[shown[-1]]
+        lines.append(f"| {surface} ({ours['kind']}) | {ours['triangles']:,.0f} "
+                     f"| {ours['contacts']:,.0f} | " + " | ".join(cells) + " |")
     return lines
 
 
@@ -99,8 +103,8 @@ def detail(results):
     for r in rows(results, "detail"):
         if r["how"] == "subdivided" or r["shape"] != "sphere":
             lines.append(f"| {r['shape']}, {r['how']} | {r['triangles']:,.0f} "
-                         f"| {r['ep_p95_mm']:.2g} mm | {r['etheta_p95_deg']:.2g} deg "
-                         f"| {100.0 * r['ef_p99']:.2g} % |")
+                         f"| {plain(r['ep_p95_mm'])} mm | {plain(r['etheta_p95_deg'])} deg "
+                         f"| {plain(min(100.0 * r['ef_p99'], 100.0))} % |")
     return lines
 
 

@@ -277,7 +277,7 @@ const std::vector<Scene>& AllScenes()
       "the paper, iterated", With([] { return Certified(Groove(150, 0.2)); }, AcrossValley, 1600),
       With([] { return Paper(Groove(150, 0.2), true); }, AcrossValley, 1600), { 1, 0, 0 },
       { { -0.05, 0.05 * std::tan(15 * Degree) }, { 0, 0 }, { 0.1, 0.1 * std::tan(15 * Degree) } } },
-    { "S8", "A plane that rises at 30 mm/s, told 30 times a second, under a still hand", ours,
+    { "S8", "A plane that rises at 30 mm/s, told 30 times a second, against a still hand", ours,
       "the mesh stepped", [] { return OnRisingPlane(33 * TickTime); },
       [] { return OnRisingPlane(0.0); }, { 0, 0, 1 }, { { 0.009, 0 }, { 0.017, 0 } } },
     { "S12", "A plane behind 5 ms of delay, pressed by 1 N", "K = 0.5 b/(T/2 + delay)",
