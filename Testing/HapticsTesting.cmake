@@ -92,4 +92,16 @@ function (haptics_add_consumer_test)
       LABELS            "haptics"
       ENVIRONMENT       "PYTHONPATH=${prefix}/${haptics_python_destination};LD_LIBRARY_PATH=")
   endif ()
+  if (haptics_python_destination AND HAPTICS_BUILD_PARAVIEW_PLUGIN)
+    # As a user does it, but for the library path: the installed files find each other without.
+    add_test(NAME Consumer.InstalledPlugin
+      COMMAND sh -c ". '${prefix}/${CMAKE_INSTALL_DATAROOTDIR}/vtkhaptics/env.sh'; \
+LD_LIBRARY_PATH= exec '$<TARGET_FILE:ParaView::pvpython>' --force-offscreen-rendering \
+'${CMAKE_CURRENT_SOURCE_DIR}/ParaView/TestInstalledPlugin.py' '${prefix}'"
+      WORKING_DIRECTORY "/")
+    set_tests_properties(Consumer.InstalledPlugin PROPERTIES
+      FIXTURES_REQUIRED haptics_install
+      LABELS            "haptics"
+      ENVIRONMENT       "PYTHONPATH=;PV_PLUGIN_PATH=")
+  endif ()
 endfunction ()

@@ -34,7 +34,7 @@ class TestFilters(unittest.TestCase):
         return proxy
 
     def test_the_surface_filter_reports_what_it_found(self):
-        surface = self.make("GodObjectSurface", Input=self.contour)
+        surface = self.make("GodObjectFilter", Input=self.contour)
         output = servermanager.Fetch(surface)
         contour = servermanager.Fetch(self.contour)
         self.assertGreater(output.GetNumberOfPolys(), 1000)
@@ -46,7 +46,7 @@ class TestFilters(unittest.TestCase):
         self.assertIn(fields.GetAbstractArray("TouchedSide").GetValue(0), ("Front", "Both"))
 
     def test_the_side_property_reaches_the_filter(self):
-        surface = self.make("GodObjectSurface", Input=self.contour)
+        surface = self.make("GodObjectFilter", Input=self.contour)
         for side in ("Front", "Both"):
             surface.Side = side
             output = servermanager.Fetch(surface)
@@ -55,7 +55,7 @@ class TestFilters(unittest.TestCase):
 
     def test_a_trace_presses_from_outside_and_stays_out(self):
         # Down along z through the middle of the contour's top, from free space to 1 unit deep.
-        surface = self.make("GodObjectSurface", Input=self.contour, Side="Both")
+        surface = self.make("GodObjectFilter", Input=self.contour, Side="Both")
         top = servermanager.Fetch(surface).GetBounds()[5]
         path = self.make("Line", Point1=[0.3, 0.2, top + 2.0], Point2=[0.3, 0.2, top - 1.5],
                          Resolution=700)
@@ -88,7 +88,7 @@ class TestFilters(unittest.TestCase):
         # From inside the sphere: only Both is felt there.
         path = self.make("Line", Point1=[0, 0, 0.5], Point2=[0, 0, 1.1], Resolution=100)
         sphere = self.make("Sphere", Radius=1.0)
-        surface = self.make("GodObjectSurface", Input=sphere)
+        surface = self.make("GodObjectFilter", Input=sphere)
         trace = self.make("GodObjectTrace", Path=path, Surface=surface)
         for side, constraints in (("Front", 0), ("Both", 1)):
             surface.Side = side
