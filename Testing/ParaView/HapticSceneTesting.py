@@ -6,6 +6,8 @@ import unittest
 import numpy as np
 from paraview import simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
 import vtkhaptics.paraview as haptics
@@ -74,9 +76,23 @@ def trace_arrays(hand):
 
 def write_path(hand, file):
     """Keeps where the hand went, to be gone again by Device=file."""
+    _write(hand.trace(), file)
+
+
+def write_line(file, start, end):
+    """The path of a hand that goes straight from one place in the world to another, and stays."""
+    points = vtkPoints()
+    points.InsertNextPoint(start)
+    points.InsertNextPoint(end)
+    line = vtkPolyData()
+    line.SetPoints(points)
+    _write(line, file)
+
+
+def _write(path, file):
     writer = vtkXMLPolyDataWriter()
     writer.SetDataModeToBinary()
-    writer.SetInputData(hand.trace())
+    writer.SetInputData(path)
     writer.SetFileName(file)
     if not writer.Write():
         raise OSError(f"{file} could not be written")

@@ -4,7 +4,7 @@ import math
 import time
 
 import numpy as np
-from HapticSceneTesting import SceneTest, haptics, look_at, main, trace_arrays, write_path
+from HapticSceneTesting import SceneTest, haptics, look_at, main, trace_arrays, write_line, write_path
 from paraview import simple
 
 
@@ -97,7 +97,8 @@ class TestHapticScene(SceneTest):
             look_at(self.view)
             self.assertLess(abs(largest_reach([0.0, 0.0, 5.0], 1.0) - 1.0).max(), 0.006)
 
-    def test_an_animation_changes_what_is_touched(self):
+    def growing_sphere(self):
+        """A closed sphere whose radius is 1 + 0.1 t, at the times 0, 1 and 2."""
         source = self.make("ProgrammableSource", OutputDataSetType="vtkPolyData")
         source.ScriptRequestInformation = """
 executive = self.GetExecutive()
@@ -115,33 +116,66 @@ sphere.Update()
 self.GetOutput().ShallowCopy(sphere.GetOutput())"""
         source.UpdatePipelineInformation()
         simple.GetAnimationScene().UpdateAnimationUsingDataTimeSteps()
+        simple.GetAnimationScene().AnimationTime = 0.0
         self.touch(source)
-        times = simple.GetAnimationScene()
+
+    def show_time(self, time_now):
+        simple.GetAnimationScene().AnimationTime = time_now
+        simple.Render(self.view)
+
+    def test_an_animation_changes_what_is_touched(self):
+        self.growing_sphere()
         for now in (0.0, 2.0, 1.0, 0.0):  # a time seen before comes out of ParaView's cache
-            times.AnimationTime = now
-            simple.Render(self.view)
+            self.show_time(now)
             self.hand.fit()  # and the stroke starts anew
             self.hand.step(1500)
             self.assertEqual(self.hand.Touching, 1, f"time {now}")
             radius = math.dist(self.hand.GodObject, (0.0, 0.0, 0.0))
             self.assertAlmostEqual(radius, 1.0 + 0.1 * now, delta=0.006, msg=f"time {now}")
 
+    def test_contact_is_carried_over_when_time_goes_on(self):
+        self.growing_sphere()
+        self.hand.step(1500)
+        for now in (1.0, 2.0):
+            self.show_time(now)
+            self.hand.step(20)
+            self.assertEqual(self.hand.Touching, 1, f"time {now}")
+            radius = math.dist(self.hand.GodObject, (0.0, 0.0, 0.0))
+            self.assertAlmostEqual(radius, 1.0 + 0.1 * now, delta=0.006, msg=f"time {now}")
+
+    def test_an_engaged_hand_stays_in_contact_while_time_goes_on(self):
+        self.growing_sphere()
+        file = "TestHapticScene_press.vtp"  # into the sphere, and there it stays
+        write_line(file, [0.2, 0.1, 1.4], [0.2, 0.1, 0.93])
+        self.hand.set(Device=file)
+        self.hand.engage()
+        end = time.monotonic() + 60.0
+
+        def wait_for(condition, what):
+            while not condition():
+                self.assertLess(time.monotonic(), end, what)
+                time.sleep(0.005)
+                self.hand.update()
+
+        wait_for(lambda: self.hand.Touching, "a contact")
+        lost = []
+        ended = self.hand.vtk.AddObserver(self.hand.vtk.ContactEndEvent, lambda *_: lost.append(1))
+        for now in (1.0, 2.0):
+            self.show_time(now)
+            wait_for(lambda: self.hand.Touching and math.dist(self.hand.GodObject, (0.0, 0.0, 0.0))
+                     > 1.0 + 0.1 * now - 0.01, f"the surface of time {now}")
+        self.hand.vtk.RemoveObserver(ended)
+        self.assertEqual(lost, [])
+
     def test_both_sides_are_felt_where_that_is_asked_for(self):
         sphere = self.make("Sphere", ThetaResolution=32, PhiResolution=32)
         self.touch(sphere)
-        inside = self.make("Line", Point1=[0.0, 0.0, 0.0], Point2=[0.0, 0.1, 0.7], Resolution=100)
-        line = simple.servermanager.Fetch(inside)
         file = "TestHapticScene_inside.vtp"
-        from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
-        writer = vtkXMLPolyDataWriter()
-        writer.SetDataModeToBinary()
-        writer.SetInputData(line)
-        writer.SetFileName(file)
-        writer.Write()
+        write_line(file, [0.0, 0.0, 0.0], [0.0, 0.1, 0.7])
         for side, touching in (("Front", 0), ("Both", 1)):
             self.hand.set(Device="none")
             self.hand.set(Device=file, Side=side)
-            self.hand.step(12000)
+            self.hand.step(4000)
             self.assertEqual(self.hand.Touching, touching, side)
 
     def test_the_same_path_gives_the_same_trace(self):
