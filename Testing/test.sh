@@ -48,7 +48,8 @@ if [ "$(id -u)" -eq 0 ]; then
 fi
 display=
 if [ -z "${DISPLAY:-}" ]; then
-  display='xvfb-run -a -s "-screen 0 1280x1024x24"'
+  # -noreset: an X server that starts anew when a test closes its last window refuses the next test.
+  display='xvfb-run -a -s "-noreset -screen 0 1280x1024x24"'
   if ! command -v xvfb-run >/dev/null; then
     echo "test.sh: no display, and xvfb-run is missing: install xvfb and xauth." >&2
     exit 1
