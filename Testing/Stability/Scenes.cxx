@@ -2,6 +2,7 @@
 
 #include "AnalyticSurfaces.h"
 #include "CertifiedMethod.h"
+#include "FeelTools.h"
 #include "GodObject.h"
 #include "PaperMethod.h"
 #include "ProfileSurfaces.h"
@@ -165,6 +166,64 @@ Trace OnRisingPlane(double duration)
   return trace;
 }
 
+namespace
+{
+/// Where a hand has moved with forces of its own.
+LoopTick Felt(int tick, const Vec3& hip, const Vec3& displacement, const Vec3& force)
+{
+  return { TickTime * tick, hip, hip + displacement, force, 0.0, 0.0 };
+}
+
+/// Pressed 5 mm deep at x = -20 mm, along to 20 mm, let go.
+std::vector<Vec3> AcrossTable()
+{
+  std::vector<Vec3> path{ { -0.02, 0.0013, 0.001 } };
+  GoTo(path, { -0.02, 0.0013, -0.005 }, 100);
+  GoTo(path, { 0.02, 0.0013, -0.005 }, 400);
+  GoTo(path, { 0.02, 0.0013, 0.001 }, 100);
+  return path;
+}
+}
+
+Trace SoftToHard(bool plain)
+{
+  const auto table = MakeSurface(Square(0.05, 20));
+  PropertyValues values;
+  values[Property::Stiffness] = AtPoints(
+    *table, [](const Vec3& p) { return 500.0 + 300.0 * std::clamp(p[0] / 0.01, -1.0, 1.0); });
+  const std::vector<Vec3> path = AcrossTable();
+  FeltHand hand(Touchable(table, values), path.front());
+  Trace trace;
+  for (std::size_t tick = 0; tick < path.size(); ++tick)
+  {
+    const Vec3 force = hand.Move(path[tick]);
+    const Contact& contact = hand.God.Current();
+    trace.push_back(Felt(static_cast<int>(tick), path[tick], contact.Displacement,
+      plain ? contact.Felt.Stiffness * contact.Displacement : force));
+  }
+  return trace;
+}
+
+Trace Rubbed(double staticFriction, double dynamicFriction)
+{
+  const auto table = MakeSurface(Square(0.05, 20));
+  std::vector<Vec3> path{ { 0, 0.0013, 0.001 } };
+  GoTo(path, { 0, 0.0013, -0.004 }, 50);
+  for (const double x : { 0.01, -0.01, 0.0 })
+  {
+    GoTo(path, { x, 0.0013, -0.004 }, 300);
+  }
+  FeltHand hand(Touchable(table, Rough(staticFriction, dynamicFriction)), path.front());
+  Trace trace;
+  for (std::size_t tick = 0; tick < path.size(); ++tick)
+  {
+    const Vec3 force = hand.Move(path[tick]);
+    trace.push_back(
+      Felt(static_cast<int>(tick), path[tick], hand.God.Current().Displacement, force));
+  }
+  return trace;
+}
+
 Trace IntoCorner(ContactMethod& method)
 {
   // Box(0.02, ...): 4 mm under its top, then along to 2 mm from its side.
@@ -280,6 +339,12 @@ const std::vector<Scene>& AllScenes()
     { "S8", "A plane that rises at 30 mm/s, told 30 times a second, against a still hand", ours,
       "the mesh stepped", [] { return OnRisingPlane(33 * TickTime); },
       [] { return OnRisingPlane(0.0); }, { 0, 0, 1 }, { { 0.009, 0 }, { 0.017, 0 } } },
+    { "S9", "From 200 to 800 N/m 5 mm deep, then let go: 7.5 mJ from nowhere, or none", ours,
+      "a plain spring", [] { return SoftToHard(false); }, [] { return SoftToHard(true); },
+      { 0, 0, 1 }, { { -0.025, 0 }, { 0.025, 0 } } },
+    { "S10", "Rubbed 4 mm deep: static friction 0.6, dynamic 0.35", ours, "no friction",
+      [] { return Rubbed(0.6, 0.35); }, [] { return Rubbed(0.0, 0.0); }, { 1, 0, 0 },
+      { { -0.014, 0 }, { 0.014, 0 } } },
     { "S12", "A plane behind 5 ms of delay, pressed by 1 N", "K = 0.5 b/(T/2 + delay)",
       "K = 0.5 (2b/T)",
       With([] { return Certified(Square(0.1)); }, Pressed, 0.5 * LimitAt5ms, 5e-3, 900),

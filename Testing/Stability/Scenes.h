@@ -51,6 +51,11 @@ Trace IntoSheets(ContactMethod& method);
 /// A still hand 1 mm under a plane that rises at 30 mm/s and is told so every 33 ms: how long it
 /// then takes to get there [s]. This project alone, as no other method here moves.
 Trace OnRisingPlane(double duration);
+/// Along a table of 200 N/m on the left and 800 N/m on the right; `plain`: as a spring of the
+/// stiffness under the god-object would press.
+Trace SoftToHard(bool plain);
+/// To and fro 4 mm under a table with friction.
+Trace Rubbed(double staticFriction, double dynamicFriction);
 /// Into the top of a box near its corner and, inside, to where its side is nearer: Fig. 2.
 Trace IntoCorner(ContactMethod& method);
 /// Over the edge of Ridge(150, ...), 4 mm below it: Fig. 5.
