@@ -39,7 +39,7 @@ public:
     this->FindInBox({ glm::min(p, q) - this->Margin, glm::max(p, q) + this->Margin }, found);
   }
 
-  bool Refit(const EngineInput& input, bool) override
+  bool Refit(const EngineInput& input) override
   {
     this->Take(input);
     return true;

@@ -74,14 +74,12 @@ public:
   virtual void FindOnSegment(
     const Vec3& from, const Vec3& to, TriangleList& found) const noexcept = 0;
 
-  /// Takes in points that have moved, with the same triangles; `rebuild` where the engine's inner
-  /// order has to follow them too, which takes longer and makes queries quick again. No query may
-  /// run meanwhile. False where memory ran out, or this kind of engine cannot: then it is of no
-  /// more use. Any thread but the servo's.
-  virtual bool Refit(const EngineInput& input, bool rebuild)
+  /// Takes in points that have moved, with the same triangles; the order in which they were taken
+  /// together stays. No query may run meanwhile. False where memory ran out, or this kind of engine
+  /// cannot: then it is of no more use. Any thread but the servo's.
+  virtual bool Refit(const EngineInput& input)
   {
     (void)input;
-    (void)rebuild;
     return false;
   }
 

@@ -218,20 +218,31 @@ bool GodObject::Implementation::Step(double part)
 /// A god-object that is split: each surface that deforms takes its own on with it.
 void GodObject::Implementation::StepApart()
 {
+  this->Budget.Triangles = LargestNumberOfTriangles;
+  const Vector before = this->Position;
   for (const std::int32_t i : this->Deforming)
   {
     WorkingSet& set = this->Sets[i];
-    set.SweepTo(1.0);
+    set.BeginRest();
     this->First = static_cast<std::size_t>(i);
     this->Last = this->First + 1;
-    ActivePlanes planes;
-    if (!this->MoveAll(set.Frame().PointToScene(set.LocalPosition()), planes))
+    double part = 1.0;
+    for (double done = 0.0; done < 1.0 && part >= SmallestPart;)
+    {
+      ActivePlanes planes;
+      set.SweepTo(done + part);
+      const bool isDone = this->MoveAll(set.Frame().PointToScene(set.LocalPosition()), planes);
+      done += isDone ? part : 0.0;
+      part *= isDone ? 1.0 : 0.5;
+    }
+    if (part < SmallestPart)
     {
       set.SkipTick();
     }
   }
   this->First = 0;
   this->Last = this->Sets.size();
+  this->Position = before;
 }
 
 /// From where each surface has the god-object to one place for all of them: the nearest to the wish
@@ -269,12 +280,17 @@ bool GodObject::Implementation::MoveAll(const Vector& wish, ActivePlanes& planes
 /// goes to the HIP as far as that surface lets it. True when there is one god-object again.
 bool GodObject::Implementation::Join(const Vector& hip)
 {
-  ActivePlanes planes;
   this->IsSplit = false;
-  if (this->MoveAll(hip, planes))
+  const Vector before = this->Position;
+  for (const Vector& wish : { before, hip })
   {
-    this->Active = planes;
-    return true;
+    ActivePlanes planes;
+    if (this->MoveAll(wish, planes))
+    {
+      this->Carried += this->Position - before;
+      this->Active = planes;
+      return true;
+    }
   }
   bool isTogether = true;
   for (std::size_t i = 0; i < this->Sets.size(); ++i)

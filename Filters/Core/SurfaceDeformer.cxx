@@ -136,19 +136,11 @@ std::shared_ptr<SurfaceDeformer::Engine> SurfaceDeformer::Borrow()
 
 bool SurfaceDeformer::Fit(Engine& engine, const EngineInput& input)
 {
-  if (engine.Collision)
+  const bool hasOrder =
+    engine.Collision && engine.Size(input) <= LargestGrowthOfGroups * engine.SizeWhenBuilt;
+  if (hasOrder)
   {
-    const bool isLost = engine.Size(input) > LargestGrowthOfGroups * engine.SizeWhenBuilt;
-    if (!engine.Collision->Refit(input, isLost))
-    {
-      return false;
-    }
-    if (isLost)
-    {
-      ++this->Builds;
-      engine.Watch(input);
-    }
-    return true;
+    return engine.Collision->Refit(input);
   }
   engine.Collision = MakeEngine(this->Current->Engine().Kind(), input);
   if (!engine.Collision)
@@ -183,24 +175,13 @@ std::shared_ptr<const TriangleSurface> SurfaceDeformer::Deform(
     p = ToVec3(ToVector(p) - origin);
   }
   next->LocalPoints = std::move(points);
-  double squaredRadius = 0.0;
-  for (const Triangle& t : next->Triangles())
-  {
-    for (const std::int32_t corner : t)
-    {
-      squaredRadius = std::max({ squaredRadius, SquaredLength(ToVector(next->LocalPoints[corner])),
-        SquaredLength(ToVector(next->Start[corner])) });
-    }
-  }
-  next->SurfaceRadius = std::sqrt(squaredRadius) * (1.0 + 0x1p-40);
-  double longestEdge = 0.0;
-  if (!next->Measure(longestEdge))
+  if (!next->Measure(&from))
   {
     error = "no triangle of the surface has an area any more";
     return nullptr;
   }
   const std::shared_ptr<Engine> engine = this->Borrow();
-  if (!this->Fit(*engine, next->Input(longestEdge, true)))
+  if (!this->Fit(*engine, next->Input(true)))
   {
     engine->Collision = nullptr; // made anew next time
     error = "memory ran out while the collision engine was fitted";

@@ -76,35 +76,38 @@ TriangleSurface::TriangleSurface()
   this->Number = ++last;
 }
 
-bool TriangleSurface::Measure(double& longestEdge)
+bool TriangleSurface::Measure(const TriangleSurface* start)
 {
-  longestEdge = 0.0;
-  for (const std::vector<Vec3>* const points : { &this->LocalPoints, &this->Start })
+  double squaredRadius = 0.0;
+  for (const Triangle& t : this->Triangles())
   {
-    for (const Triangle& t : this->Triangles())
+    const Facet facet(ToVector(this->LocalPoints[t[0]]), ToVector(this->LocalPoints[t[1]]),
+      ToVector(this->LocalPoints[t[2]]));
+    for (const Vector& corner : facet.Corner)
     {
-      if (points->empty())
-      {
-        break;
-      }
-      const Facet facet(
-        ToVector((*points)[t[0]]), ToVector((*points)[t[1]]), ToVector((*points)[t[2]]));
-      if (facet.HasArea())
-      {
-        longestEdge = std::max(longestEdge, facet.LongestEdge);
-      }
+      squaredRadius = std::max(squaredRadius, SquaredLength(corner));
     }
+    if (facet.HasArea())
+    {
+      this->EndLongestEdge = std::max(this->EndLongestEdge, facet.LongestEdge);
+    }
+  }
+  this->EndRadius = std::sqrt(squaredRadius) * (1.0 + 0x1p-40);
+  this->LongestEdge = std::max(this->EndLongestEdge, start ? start->EndLongestEdge : 0.0);
+  if (start)
+  {
+    this->SurfaceRadius = std::max(this->EndRadius, start->EndRadius);
   }
   this->MinimumClearance = std::max(1024.0 * UnitRoundoff * this->SurfaceRadius,
     0.25 * std::min(this->CrackWidth, this->SurfaceRadius));
-  return longestEdge > 0.0;
+  return this->LongestEdge > 0.0;
 }
 
-EngineInput TriangleSurface::Input(double longestEdge, bool isRefitted) const
+EngineInput TriangleSurface::Input(bool isRefitted) const
 {
   return { this->LocalPoints, this->Triangles(), this->SurfaceRadius,
-    LargestGrowth(this->MinimumClearance, longestEdge), this->Deforms() ? &this->Start : nullptr,
-    isRefitted };
+    LargestGrowth(this->MinimumClearance, this->LongestEdge),
+    this->Deforms() ? &this->Start : nullptr, isRefitted };
 }
 
 std::shared_ptr<const TriangleSurface> TriangleSurface::Build(
@@ -122,8 +125,7 @@ std::shared_ptr<const TriangleSurface> TriangleSurface::Build(
   const auto topology = std::make_shared<Topology>();
   topology->Triangles = std::move(mesh.Triangles);
   surface->Shared = topology;
-  double longestEdge = 0.0;
-  if (!surface->Measure(longestEdge))
+  if (!surface->Measure(nullptr))
   {
     error = "no triangle of the surface has an area";
     return nullptr;
@@ -136,7 +138,7 @@ std::shared_ptr<const TriangleSurface> TriangleSurface::Build(
     surface->Touched =
       found.Closed && found.Oriented && found.InsideOutComponents == 0 ? Side::Front : Side::Both;
   }
-  surface->Collision = MakeEngine(options.Engine, surface->Input(longestEdge, false));
+  surface->Collision = MakeEngine(options.Engine, surface->Input(false));
   if (!surface->Collision)
   {
     error = options.Engine == EngineKind::Exact

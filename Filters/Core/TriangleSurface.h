@@ -124,14 +124,18 @@ private:
     SurfaceReport Found;
   };
 
-  /// Clearance and what engines need; false where no triangle has an area.
-  bool Measure(double& longestEdge);
-  EngineInput Input(double longestEdge, bool isRefitted) const;
+  /// Works out radius, longest edge and clearance; `start`: what it deforms from, or null. False
+  /// where no triangle has an area.
+  bool Measure(const TriangleSurface* start);
+  EngineInput Input(bool isRefitted) const;
 
   std::vector<Vec3> LocalPoints, Start;
   std::shared_ptr<const Topology> Shared;
   Vec3 SurfaceOrigin{};
   double SurfaceRadius = 0.0;
+  double LongestEdge = 0.0; ///< of triangles that have an area
+  double EndRadius = 0.0;   ///< as SurfaceRadius, of the points where they go
+  double EndLongestEdge = 0.0;
   double CrackWidth = 0.0;
   double MinimumClearance = 0.0;
   double Duration = 0.0;

@@ -90,7 +90,10 @@ public:
   void BeginTick(double dt);
   void SweepTo(double part);
   void SweepNothing() { this->Next = this->Now; }
-  /// Goes to the end of the tick, whatever it passes; the god-object has to be placed.
+  /// Parts are of what is left of the tick from here on.
+  void BeginRest();
+  /// Goes to the end of the tick, whatever it passes; a solid that has gone over the god-object has
+  /// it on the nearest place outside.
   void SkipTick();
   ///@}
 
@@ -146,6 +149,7 @@ private:
     return { ToVector(points[corners[0]]), ToVector(points[corners[1]]),
       ToVector(points[corners[2]]) };
   }
+  bool PlaceOutside(const Vector& nearest, const Vector& outwards, const int* enclosed);
   SurfaceSide SideOf(const TriangleSurface& surface, double fraction);
   bool IsSweeping() const { return this->Next != this->Now; }
   bool GatherSwept(const Vector& to, WorkBudget& budget);

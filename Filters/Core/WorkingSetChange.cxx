@@ -58,17 +58,47 @@ bool WorkingSet::Succeed(const WorkingSet& previous, const ActivePlane* held)
       return true;
     }
   }
+  return !this->PlaceOutside(nearest, outwards, isCounted ? &enclosedBefore : nullptr);
+}
+
+/// Puts the god-object off the nearest point of the surface; where `enclosed` is given, not
+/// enclosed more often than that. False, with nothing changed, where that does not come about.
+bool WorkingSet::PlaceOutside(const Vector& nearest, const Vector& outwards, const int* enclosed)
+{
+  SurfaceSide side = this->SideOf(*this->Touched, this->Now);
   double height = this->MinimumClearance;
   for (int i = 0; i < LargestNumberOfHeights; ++i)
   {
     const Vector place = nearest + height * outwards;
-    if (!isCounted || (now.CountEnclosing(place, enclosed) && enclosed <= enclosedBefore))
+    int count = 0;
+    if (!enclosed || (side.CountEnclosing(place, count) && count <= *enclosed))
     {
       this->Position = place;
-      return false;
+      return true;
     }
     height *= 4.0;
   }
-  return true;
+  return false;
+}
+
+void WorkingSet::SkipTick()
+{
+  int before = 0;
+  const bool isCounted = IsSolid(*this->Touched) &&
+    this->SideOf(*this->Touched, this->Now).CountEnclosing(this->Position, before);
+  this->Now = this->TickEnd;
+  this->Next = this->Now;
+  this->Covered = Region::Nothing;
+  this->EmptyRadius = 0.0;
+  SurfaceSide side = this->SideOf(*this->Touched, this->Now);
+  int after = 0;
+  Vector nearest(0.0);
+  Vector normal(0.0);
+  bool isOnRim = false;
+  if (isCounted && side.CountEnclosing(this->Position, after) && after > before &&
+    side.FindNearest(this->Position, nearest, normal, isOnRim))
+  {
+    this->PlaceOutside(nearest, normal, &before);
+  }
 }
 }

@@ -22,12 +22,10 @@ void WorkingSet::SweepTo(double part)
   this->IsSweepClear = false;
 }
 
-void WorkingSet::SkipTick()
+void WorkingSet::BeginRest()
 {
-  this->Now = this->TickEnd;
   this->Next = this->Now;
-  this->Covered = Region::Nothing;
-  this->EmptyRadius = 0.0;
+  this->TickStart = this->Now;
 }
 
 /// All triangles that can come to the god-object while it goes there: engines find a triangle

@@ -40,17 +40,21 @@ int LineInTriangle(const Point& p, const Point& q, const Point& a, const Point& 
 }
 }
 
-ExactQueries::ExactQueries(std::shared_ptr<const TriangleSurface> surface)
+ExactQueries::ExactQueries(std::shared_ptr<const TriangleSurface> surface, double fraction)
   : Surface(std::move(surface))
 {
+  for (std::size_t i = 0; i < this->Surface->Points().size(); ++i)
+  {
+    this->Points.push_back(this->Surface->PointAt(static_cast<std::int32_t>(i), fraction));
+  }
   for (const Triangle& t : this->Surface->Triangles())
   {
-    Bounds box{ this->Surface->Points()[t[0]], this->Surface->Points()[t[0]] };
+    Bounds box{ this->Points[t[0]], this->Points[t[0]] };
     for (const std::int32_t corner : t)
     {
       for (int k = 0; k < 3; ++k)
       {
-        const double x = this->Surface->Points()[corner][k];
+        const double x = this->Points[corner][k];
         box.Low[k] = std::min(box.Low[k], x);
         box.High[k] = std::max(box.High[k], x);
       }
@@ -70,7 +74,7 @@ bool ExactQueries::VisitBoxes(const Bounds& box, const Visitor& visit) const
     if (!apart)
     {
       const auto& [a, b1, c] = this->Surface->Triangles()[i];
-      const auto& points = this->Surface->Points();
+      const auto& points = this->Points;
       if (visit(ToPoint(points[a]), ToPoint(points[b1]), ToPoint(points[c])))
       {
         return true;
@@ -163,7 +167,7 @@ double ExactQueries::Distance(const Vec3& point) const
       continue;
     }
     const auto& [a, b, c] = this->Surface->Triangles()[i];
-    const auto& points = this->Surface->Points();
+    const auto& points = this->Points;
     const auto corner = [&points](int index)
     { return Exact::Point_3(points[index][0], points[index][1], points[index][2]); };
     const Exact::Triangle_3 triangle(corner(a), corner(b), corner(c));

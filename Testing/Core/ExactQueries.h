@@ -12,7 +12,8 @@ namespace haptics::testing
 class ExactQueries
 {
 public:
-  explicit ExactQueries(std::shared_ptr<const TriangleSurface> surface);
+  /// `fraction`: of the time that a surface which deforms is on its way, 0 to 1.
+  explicit ExactQueries(std::shared_ptr<const TriangleSurface> surface, double fraction = 1.0);
 
   /// Whether a straight way from `from` to `to` meets a triangle from a side that can be touched.
   /// As for the god-object, ending on a triangle counts; starting on it counts only for one that is
@@ -34,6 +35,7 @@ private:
   bool VisitBoxes(const Bounds& box, const Visitor& visit) const;
 
   std::shared_ptr<const TriangleSurface> Surface;
+  std::vector<Vec3> Points;
   std::vector<Bounds> Boxes;
 };
 }

@@ -1,6 +1,7 @@
 // An update in the servo thread may not allocate: this program counts every malloc.
 #include "AnalyticSurfaces.h"
 #include "FeelTools.h"
+#include "SurfaceDeformer.h"
 
 #include <gtest/gtest.h>
 
@@ -91,4 +92,59 @@ TEST(ServoSafety, NoPropertyAllocates)
   IsCounting = false;
   EXPECT_EQ(Allocations, 0);
   EXPECT_NE(hand.Last, Vec3{});
+}
+
+TEST(ServoSafety, NothingThatMovesAllocates)
+{
+  const auto ball = MakeSurface(Icosphere(4, 0.05));
+  const auto motion = std::make_shared<SurfaceMotion>(RigidPose{});
+  SurfaceDeformer deformer(ball);
+  std::mt19937 random(4);
+  std::normal_distribution<double> normal;
+  const auto list = [&](const std::shared_ptr<const TriangleSurface>& surface)
+  {
+    std::vector<TouchedSurface> surfaces = { surface,
+      { MakeSurface(Star(3, 0.04, 0.4, 3)), motion } };
+    surfaces.front().Identity = 1;
+    return surfaces;
+  };
+  auto god = std::make_unique<GodObject>(list(ball));
+  god->Update({ 0.1, 0, 0 });
+  long total = 0;
+  int touching = 0;
+  for (int tick = 0; tick < 1500; ++tick)
+  {
+    std::unique_ptr<GodObject> next;
+    if (tick % 20 == 0 && god->HasArrived())
+    {
+      // Points move; now and then the surface changes all at once.
+      const double size = 1.0 + 0.05 * normal(random);
+      std::vector<Vec3> points;
+      for (const Vec3& p : ball->Points())
+      {
+        points.push_back(size * p);
+      }
+      std::string error;
+      const auto deformed = deformer.Deform(points, 0.015, error);
+      ASSERT_TRUE(deformed) << error;
+      next = std::make_unique<GodObject>(
+        list(tick % 200 == 100 ? MakeSurface(Icosphere(3, 0.05 * size)) : deformed));
+      motion->MoveTo({ { 0.05 + 0.01 * normal(random), 0.01 * normal(random), 0 } }, 0.01);
+    }
+    const double a = 2e-3 * tick;
+    const Vec3 hip{ 0.046 * std::cos(a), 0.046 * std::sin(a), 0.01 * std::sin(0.3 * a) };
+    IsCounting = true;
+    Allocations = 0;
+    if (next)
+    {
+      next->Continue(*god);
+      next.swap(god);
+    }
+    god->Advance(0.001);
+    touching += god->Update(hip).Status == UpdateStatus::Touching;
+    IsCounting = false;
+    total += Allocations;
+  }
+  EXPECT_EQ(total, 0);
+  EXPECT_GT(touching, 1000);
 }

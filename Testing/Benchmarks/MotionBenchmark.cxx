@@ -1,0 +1,188 @@
+// Whether a servo keeps 1 kHz while a surface under it deforms, and what each side of that costs.
+//
+// Two threads, as in a scene: one makes a snapshot of waving points 60 or 30 times a second and
+// hands it over, the other ticks at 1 kHz and strokes the surface. Prints CSV, a line a size. Needs
+// two cores for itself; `--help` tells the options.
+#include "AnalyticSurfaces.h"
+#include "GodObjectExchange.h"
+#include "SurfaceDeformer.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <thread>
+#include <vector>
+
+using namespace haptics;
+using namespace haptics::testing;
+
+namespace
+{
+using Clock = std::chrono::steady_clock;
+constexpr double Period = 0.001; // [s] of the servo
+
+double Since(Clock::time_point start)
+{
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+double Quantile(std::vector<double>& values, double q)
+{
+  if (values.empty())
+  {
+    return 0.0;
+  }
+  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(q * (values.size() - 1));
+  std::nth_element(values.begin(), nth, values.end());
+  return *nth;
+}
+
+struct Case
+{
+  const char* Name;
+  int Level;   ///< of the icosphere
+  double Rate; ///< snapshots a second; 0: nothing moves
+  bool Moves;  ///< as a rigid body as well
+};
+
+/// A sphere of R = 0.1 m whose points go in and out by up to 5 %.
+std::vector<Vec3> Waved(const std::vector<Vec3>& points, double time)
+{
+  std::vector<Vec3> waved;
+  waved.reserve(points.size());
+  for (const Vec3& p : points)
+  {
+    waved.push_back((1.0 + 0.05 * std::sin(40.0 * p[0] + 60.0 * p[2] + 6.0 * time)) * p);
+  }
+  return waved;
+}
+
+void Run(const Case& scene, double seconds)
+{
+  const TriangleMesh mesh = Icosphere(scene.Level, 0.1);
+  const auto ball = MakeSurface(mesh);
+  const auto motion = scene.Moves ? std::make_shared<SurfaceMotion>(RigidPose{}) : nullptr;
+  SurfaceDeformer deformer(ball);
+  GodObjectExchange exchange;
+  std::uint64_t published = 0;
+  std::atomic<std::uint64_t> taken{ 0 };
+  const auto publish = [&](const std::shared_ptr<const TriangleSurface>& surface)
+  {
+    std::vector<TouchedSurface> list{ { surface, motion } };
+    list.front().Identity = 1;
+    published = exchange.Publish(std::make_unique<GodObject>(std::move(list)));
+  };
+  publish(ball);
+
+  std::atomic<bool> isOver{ false };
+  std::vector<double> ticks;
+  std::vector<double> late;
+  long touching = 0;
+  const auto room = static_cast<std::size_t>(2.0 * seconds / Period);
+  ticks.reserve(room);
+  late.reserve(room);
+  std::thread servo(
+    [&]
+    {
+      auto due = Clock::now();
+      double angle = 0.0;
+      exchange.Take().Object->Update({ 0.2, 0, 0 });
+      while (!isOver && ticks.size() < room)
+      {
+        due += std::chrono::microseconds(1000);
+        std::this_thread::sleep_until(due);
+        const auto start = Clock::now();
+        late.push_back(std::chrono::duration<double>(start - due).count());
+        angle += 0.001; // 0.1 m/s on the surface
+        NumberedGodObject& numbered = exchange.Take();
+        taken.store(numbered.Generation, std::memory_order_relaxed);
+        GodObject& god = *numbered.Object;
+        god.Advance(Period);
+        touching += god.Update({ 0.095 * std::cos(angle), 0.095 * std::sin(angle), 0 }).Status ==
+          UpdateStatus::Touching;
+        ticks.push_back(Since(start));
+      }
+    });
+
+  std::vector<double> deforms;
+  const auto start = Clock::now();
+  double due = 0.0;
+  while (Since(start) < seconds)
+  {
+    if (scene.Rate <= 0.0)
+    {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      continue;
+    }
+    due = std::max(due + 1.0 / scene.Rate, Since(start) - 1.0 / scene.Rate);
+    std::this_thread::sleep_until(
+      start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(due)));
+    if (taken.load(std::memory_order_relaxed) != published)
+    {
+      continue; // the servo has not come to the last one: this one is left out
+    }
+    const auto before = Clock::now();
+    std::string error;
+    const auto next = deformer.Deform(Waved(mesh.Points, Since(start)), 1.0 / scene.Rate, error);
+    if (!next)
+    {
+      std::fprintf(stderr, "%s\n", error.c_str());
+      std::exit(1);
+    }
+    publish(next);
+    if (motion)
+    {
+      motion->MoveTo({ { 0.01 * std::sin(Since(start)), 0, 0 } }, 1.0 / scene.Rate);
+    }
+    deforms.push_back(Since(before));
+  }
+  const double rate = static_cast<double>(deforms.size()) / Since(start);
+  isOver = true;
+  servo.join();
+
+  const double kept = static_cast<double>(std::count_if(
+                        late.begin(), late.end(), [](double x) { return x < Period; })) /
+    static_cast<double>(late.size());
+  std::printf("%s,%zu,%.1f,%.2f,%.2f,%zu,%.2f,%.2f,%.2f,%.2f,%.4f,%.1f,%.3f,%d\n", scene.Name,
+    ball->Triangles().size(), rate, 1e3 * Quantile(deforms, 0.5), 1e3 * Quantile(deforms, 1.0),
+    ticks.size(), 1e6 * Quantile(ticks, 0.5), 1e6 * Quantile(ticks, 0.99),
+    1e6 * Quantile(ticks, 0.999), 1e6 * Quantile(ticks, 1.0), kept, 1e6 * Quantile(late, 0.999),
+    static_cast<double>(touching) / static_cast<double>(ticks.size()), deformer.NumberOfBuilds());
+  std::fflush(stdout);
+}
+}
+
+int main(int argc, char* argv[])
+{
+  double seconds = 10.0;
+  for (int i = 1; i < argc; ++i)
+  {
+    if (std::strcmp(argv[i], "--seconds") == 0 && i + 1 < argc)
+    {
+      seconds = std::atof(argv[++i]);
+    }
+    else
+    {
+      std::printf("Usage: %s [--seconds S]\n\n  --seconds S  for each case; default 10\n\n"
+                  "deform: from points to the snapshot that is handed over; tick: one servo cycle\n"
+                  "without the device; kept: share of ticks that began within their period.\n",
+        argv[0]);
+      return std::strcmp(argv[i], "--help") == 0 ? 0 : 2;
+    }
+  }
+  std::printf("case,triangles,snapshots_per_s,deform_ms_p50,deform_ms_max,ticks,tick_us_p50,"
+              "tick_us_p99,tick_us_p999,tick_us_max,kept,late_us_p999,contact,builds\n");
+  const Case cases[] = { { "still", 5, 0.0, false }, { "deforming", 5, 60.0, false },
+    { "deforming and moving", 5, 60.0, true }, { "still", 7, 0.0, false },
+    { "deforming", 7, 30.0, false } };
+  for (const Case& scene : cases)
+  {
+    Run(scene, seconds);
+  }
+  return 0;
+}
