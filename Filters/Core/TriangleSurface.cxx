@@ -100,7 +100,7 @@ bool TriangleSurface::Measure(const TriangleSurface* start)
   }
   this->MinimumClearance = std::max(1024.0 * UnitRoundoff * this->SurfaceRadius,
     0.25 * std::min(this->CrackWidth, this->SurfaceRadius));
-  return this->LongestEdge > 0.0;
+  return this->EndLongestEdge > 0.0;
 }
 
 EngineInput TriangleSurface::Input(bool isRefitted) const

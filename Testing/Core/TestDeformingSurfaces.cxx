@@ -1,10 +1,12 @@
 // A god-object on surfaces whose points move. Lengths are metres, a tick is a millisecond.
 #include "AnalyticSurfaces.h"
+#include "ExactQueries.h"
 #include "GodObject.h"
 #include "SurfaceDeformer.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -121,4 +123,138 @@ TEST(DeformingSurfaces, NothingPassesAtAnySpeed)
       }
     }
   }
+}
+
+//   ~~~o~~~     waves run through under a hand that rests: it goes up and down with them, and stays
+//      x        on the outside, while a new snapshot comes 60 times a second
+TEST(DeformingSurfaces, WavesCarryAHandAndNeverPassIt)
+{
+  Playing ball(Icosphere(4, 0.05));
+  ball.God->Update({ 0.0, 0.0, 0.06 });
+  const Vec3 hip{ 0.0, 0.001, 0.043 };
+  ball.God->Update(hip);
+  double last = 0.0;
+  double most = 0.0;
+  for (int tick = 0; tick < 600; ++tick)
+  {
+    if (tick % 17 == 0)
+    {
+      const double phase = 0.02 * (tick + 17);
+      ball.Deform([phase](const Vec3& p)
+        { return (1.0 + 0.05 * std::sin(60.0 * p[0] + 80.0 * p[2] + phase)) * p; },
+        17);
+    }
+    const Contact& contact = ball.Next(hip);
+    const ExactQueries exact(ball.Deformer.Latest(), ball.God->DeformFraction(0));
+    ASSERT_FALSE(exact.IsInside(ball.God->LocalPosition(0))) << "tick " << tick;
+    ASSERT_LT(exact.Distance(ball.God->LocalPosition(0)), 1e-9) << "off the surface";
+    if (tick > 0)
+    {
+      most = std::max(most, std::abs(contact.Penetration - last));
+    }
+    last = contact.Penetration;
+  }
+  // The waves move a point by 2.5 mm times 20 rad/s: 50 um a tick, and a slope takes some more.
+  EXPECT_LT(most, 2e-4);
+  EXPECT_GT(most, 2e-5);
+  EXPECT_LE(ball.Deformer.NumberOfBuilds(), 3); // the rest was refitted
+}
+
+TEST(DeformingSurfaces, EnginesFindTrianglesWhereverTheyPass)
+{
+  for (const EngineKind kind : { EngineKind::BruteForce, EngineKind::Embree })
+  {
+    const TriangleMesh mesh = Icosphere(3, 0.05);
+    SurfaceDeformer deformer(MakeSurface(mesh, Side::Front, kind));
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> share(0.0, 1.0);
+    for (int step = 1; step < 6; ++step) // the third is a refit
+    {
+      std::string error;
+      const SurfacePointer surface = deformer.Deform(
+        Mapped(mesh.Points, [step](const Vec3& p) { return (1.0 + 0.2 * (step % 3)) * p; }), 0.01,
+        error);
+      ASSERT_TRUE(surface) << error;
+      for (int trial = 0; trial < 500; ++trial)
+      {
+        const auto triangle =
+          static_cast<std::int32_t>(share(random) * (surface->Triangles().size() - 1));
+        const double fraction = share(random);
+        const auto& [a, b, c] = surface->Triangles()[triangle];
+        const Vec3 middle = (1.0 / 3.0) *
+          (surface->PointAt(a, fraction) + surface->PointAt(b, fraction) +
+            surface->PointAt(c, fraction));
+        std::vector<std::int32_t> room(surface->Triangles().size());
+        TriangleList found{ room.data(), static_cast<std::int32_t>(room.size()) };
+        surface->Engine().FindInBall(middle, 1e-6, found);
+        ASSERT_NE(
+          std::find(room.begin(), room.begin() + found.Count, triangle), room.begin() + found.Count)
+          << "step " << step << ", fraction " << fraction;
+      }
+    }
+  }
+}
+
+TEST(DeformingSurfaces, AnEngineThatHasLostItsOrderIsBuiltAnew)
+{
+  const TriangleMesh mesh = Square(0.1, 32);
+  SurfaceDeformer deformer(MakeSurface(mesh, Side::Both));
+  std::string error;
+  for (int step = 0; step < 6; ++step)
+  {
+    ASSERT_TRUE(deformer.Deform(mesh.Points, 0.0, error));
+  }
+  const int before = deformer.NumberOfBuilds();
+  // Every second point is thrown far away: no neighbours are left.
+  int i = 0;
+  ASSERT_TRUE(deformer.Deform(Mapped(mesh.Points,
+                                [&i](const Vec3& p) {
+                                  return ++i % 2 ? p : p + Vec3{ 0, 0, 0.1 };
+                                }),
+    0.0, error));
+  EXPECT_EQ(deformer.NumberOfBuilds(), before + 1);
+}
+
+TEST(DeformingSurfaces, WhatCannotBeDeformedIsRefusedAndTheLastStays)
+{
+  const TriangleMesh mesh = Icosphere(2, 0.05);
+  SurfaceDeformer deformer(MakeSurface(mesh));
+  const SurfacePointer before = deformer.Latest();
+  std::string error;
+  std::vector<Vec3> points = mesh.Points;
+  points.pop_back();
+  EXPECT_FALSE(deformer.Deform(points, 0.01, error));
+  EXPECT_NE(error.find("161 points were given for a surface of 162"), std::string::npos) << error;
+  points = mesh.Points;
+  points[7][1] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(deformer.Deform(points, 0.01, error));
+  EXPECT_NE(error.find("point 7 is not finite"), std::string::npos) << error;
+  for (const double duration : { -0.1, 1.5, std::nan("") })
+  {
+    EXPECT_FALSE(deformer.Deform(mesh.Points, duration, error));
+    EXPECT_NE(error.find("duration"), std::string::npos) << error;
+  }
+  EXPECT_FALSE(deformer.Deform(std::vector<Vec3>(mesh.Points.size()), 0.01, error)); // a scale of 0
+  EXPECT_NE(error.find("no triangle"), std::string::npos) << error;
+  EXPECT_EQ(deformer.Latest(), before);
+  EXPECT_TRUE(deformer.Deform(mesh.Points, 0.01, error)) << error;
+}
+
+// What is certain to pass beside does; what passes over is told, wherever it does.
+TEST(SweptTriangle, TellsWhatPassesOverAPoint)
+{
+  const auto sweep = [](const Vec3& from, const Vec3& to)
+  {
+    // Rises by one while it drifts.
+    Playing sheet(
+      TriangleMesh{ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, { { 0, 1, 2 } } }, Side::Both);
+    sheet.God->Update(from);
+    sheet.Deform([](const Vec3& p) { return p + Vec3{ 0.1, 0, 1 }; }, 1);
+    return sheet.Next(to).Status;
+  };
+  EXPECT_EQ(sweep({ 0.3, 0.3, 0.5 }, { 0.3, 0.3, 0.5 }), UpdateStatus::Touching);
+  EXPECT_EQ(sweep({ 0.9, 0.9, 0.5 }, { 0.9, 0.9, 0.5 }), UpdateStatus::Free);
+  EXPECT_EQ(sweep({ -0.1, 0.3, 0.5 }, { -0.1, 0.3, 0.5 }), UpdateStatus::Free);
+  EXPECT_EQ(sweep({ 0.3, 0.3, 1.5 }, { 0.3, 0.3, 1.5 }), UpdateStatus::Free);
+  EXPECT_EQ(sweep({ 0.3, 0.3, -0.5 }, { 0.3, 0.3, -0.5 }), UpdateStatus::Free);
 }

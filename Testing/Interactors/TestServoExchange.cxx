@@ -1,5 +1,6 @@
 #include "GodObjectExchange.h"
 #include "ServoTestTools.h"
+#include "SurfaceDeformer.h"
 
 #include <gtest/gtest.h>
 
@@ -48,6 +49,34 @@ TEST(GodObjectExchange, KeepsARetiredSurfaceUntilItIsCollected)
   EXPECT_FALSE(retired.expired()) << "the servo thread must not delete";
   exchange.Collect();
   EXPECT_TRUE(retired.expired());
+}
+
+TEST(GodObjectExchange, WaitsUntilWhatDeformsHasArrived)
+{
+  const auto plane = MakePlane();
+  haptics::SurfaceDeformer deformer(plane);
+  std::vector<haptics::Vec3> points;
+  for (const haptics::Vec3& p : plane->Points())
+  {
+    const haptics::Vec3& o = plane->Origin();
+    points.push_back({ p[0] + o[0], p[1] + o[1], p[2] + o[2] + 0.001 });
+  }
+  std::string error;
+  const auto rising = deformer.Deform(points, 0.003, error);
+  ASSERT_TRUE(rising) << error;
+  GodObjectExchange exchange;
+  exchange.Publish(MakeGodObject(plane));
+  exchange.Take().Object->Update({ 0.0, 0.0, 0.1 });
+  exchange.Publish(MakeGodObject(rising));
+  EXPECT_TRUE(exchange.Take().IsSeamless) << "it starts where the one before is";
+  exchange.Publish(MakeGodObject(MakePlane()));
+  for (int tick = 0; tick < 3; ++tick)
+  {
+    EXPECT_EQ(exchange.Take().Generation, 2u) << "tick " << tick;
+    exchange.Take().Object->Advance(0.001);
+  }
+  EXPECT_EQ(exchange.Take().Generation, 3u);
+  EXPECT_FALSE(exchange.Take().IsSeamless) << "another plane";
 }
 
 TEST(GodObjectExchange, DeletesAllThatItHoldsAtItsEnd)
