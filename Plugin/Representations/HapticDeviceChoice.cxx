@@ -65,7 +65,14 @@ DeviceChoice DeviceChoice::Make(const std::string& name, std::string& error)
   {
     auto recorded = vtkSmartPointer<vtkRecordedHapticDevice>::New();
     recorded->SetFileName(name);
-    choice.Chosen = recorded;
+    if (recorded->Open()) // which tells what it reaches, needed to fit it
+    {
+      choice.Chosen = recorded;
+    }
+    else
+    {
+      error = recorded->GetErrorMessage();
+    }
   }
   else if (choice.ReadPath(name, error))
   {
