@@ -37,7 +37,8 @@ vtkSMProxy* MakeLandmarksSource(vtkPolyData* landmarks)
     .Set(vtkHapticRecordSource::MakeContents(landmarks).c_str());
   controller->PostInitializeProxy(source);
   source->UpdateVTKObjects();
-  controller->RegisterPipelineProxy(source, "HapticLandmarks");
+  controller->RegisterPipelineProxy(
+    source, server->proxyManager()->GetUniqueProxyName("sources", "HapticLandmarks").c_str());
   source->UpdatePipeline();
 
   auto* view = qobject_cast<pqRenderView*>(pqActiveObjects::instance().activeView());

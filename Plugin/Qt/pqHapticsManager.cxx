@@ -70,6 +70,8 @@ pqHapticsManager* pqHapticsManager::instance()
 pqHapticsManager::pqHapticsManager(QObject* parent)
   : Superclass(parent)
 {
+  this->setObjectName("HapticsManager");
+  this->Timer.setObjectName("HapticsTimer");
   this->Timer.setInterval(1000 / MaximumRate + 1);
   this->connect(&this->Timer, &QTimer::timeout, this, &pqHapticsManager::poll);
 
@@ -281,15 +283,17 @@ void pqHapticsManager::engage(const QString& title, bool anew)
 void pqHapticsManager::proveAsked()
 {
   vtkPVHapticScene* scene = this->clientScene();
-  if (this->Asked.isEmpty() || (scene && scene->GetBuilding()))
+  const QString message = scene ? scene->GetMessage() : "";
+  const bool failed = scene && !scene->GetEngaged() && !message.isEmpty();
+  if (this->Asked.isEmpty() || (scene && scene->GetBuilding() && !failed))
   {
     return;
   }
   const QString title = this->Asked;
   this->Asked.clear();
-  if (scene && (!this->hasWork() || scene->GetNumberOfTouchableSurfaces() == 0))
+  if (failed || !this->hasWork() || scene->GetNumberOfTouchableSurfaces() == 0)
   {
-    const QString problem = this->hasWork() ? this->hand()->GetErrorMessage() : scene->GetMessage();
+    const QString problem = failed || !scene ? message : QString(this->hand()->GetErrorMessage());
     this->setEngaged(false);
     this->complain(title,
       problem.isEmpty() ? QString("What is shown cannot be touched just now: it is hidden, or its "
@@ -312,23 +316,25 @@ void pqHapticsManager::setEngaged(bool engaged)
   }
 }
 
-void pqHapticsManager::followActiveView()
+bool pqHapticsManager::followActiveView()
 {
   pqView* active = pqActiveObjects::instance().activeView();
   if (!this->Scene || !qobject_cast<pqRenderView*>(active) || active == this->View)
   {
-    return;
+    return false;
   }
   const QList<pqRepresentation*> shown = active->getRepresentations();
   const bool canBeTouched = std::any_of(shown.begin(), shown.end(),
     [](pqRepresentation* representation) { return isHaptic(representation->getProxy()); });
-  if (canBeTouched || !this->Engaged) // an engaged hand stays where it can touch something
+  if (!canBeTouched && this->Engaged)
   {
-    SCOPED_UNDO_EXCLUDE();
-    this->View = active;
-    vtkSMPropertyHelper(this->Scene, "View").Set(active->getProxy());
-    this->Scene->UpdateVTKObjects();
+    return false; // an engaged hand stays where it can touch something
   }
+  SCOPED_UNDO_EXCLUDE();
+  this->View = active;
+  vtkSMPropertyHelper(this->Scene, "View").Set(active->getProxy());
+  this->Scene->UpdateVTKObjects();
+  return this->Engaged;
 }
 
 int pqHapticsManager::followSurfaces()
@@ -379,7 +385,11 @@ void pqHapticsManager::poll()
   const bool busy = this->View && this->View->getServer()->isProgressPending();
   if (scene && !busy) // a pipeline that is being computed is looked at when it is done
   {
-    this->followActiveView();
+    if (this->followActiveView())
+    {
+      this->engage("Touch", true); // another view releases the hand
+      return;
+    }
     this->followSurfaces();
     if (scene->Update() && this->View)
     {

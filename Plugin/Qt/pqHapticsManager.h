@@ -95,7 +95,7 @@ private:
 
   void adoptScene(vtkSMProxy* proxy);
   void findScene();
-  void followActiveView();
+  bool followActiveView();
   int followSurfaces();
   void engage(const QString& title, bool anew);
   bool hasWork() const;
@@ -105,7 +105,7 @@ private:
 
   vtkWeakPointer<vtkSMProxy> Scene;
   QPointer<pqView> View;
-  QTimer Timer;
+  QTimer Timer{ this };
   bool Engaged = false;
   QString Asked; // title of what the user asked for last, until it is seen to hold
 };

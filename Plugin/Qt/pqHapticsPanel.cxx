@@ -19,6 +19,7 @@
 #include <QHeaderView>
 #include <QLocale>
 #include <QScrollArea>
+#include <QScrollBar>
 #include <QSignalBlocker>
 
 #include <algorithm>
@@ -47,13 +48,18 @@ pqHapticsPanel::pqHapticsPanel(QWidget* parent, Qt::WindowFlags flags)
   scrolled->setWidgetResizable(true);
   scrolled->setFrameShape(QFrame::NoFrame);
   scrolled->setWidget(content);
+  scrolled->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scrolled->setMinimumWidth(
+    content->minimumSizeHint().width() + scrolled->verticalScrollBar()->sizeHint().width());
   this->setWidget(scrolled);
 
   this->Form->device->addItem("Mouse", "mouse");
   this->Form->device->addItem("Simulated stroke", "simulated");
   this->Form->device->addItem("Novint Falcon", "falcon");
   this->Form->device->addItem("Recording...", ChooseFile);
-  this->Form->values->horizontalHeader()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
+  QTableWidget* values = this->Form->values;
+  values->horizontalHeader()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
+  values->verticalHeader()->setDefaultSectionSize(values->fontMetrics().height() + 4);
 
   this->connectSettings();
   this->connectCommands();
@@ -314,7 +320,7 @@ void pqHapticsPanel::showContact()
   const bool touching = scene && scene->GetTouching();
   const int landmarks = scene ? scene->GetNumberOfLandmarks() : 0;
   form.contact->setText(touching ? "cell " + QString::number(scene->GetTouchedCell()) + ", " +
-        QString::number(scene->GetPenetration(), 'g', 3) + " below the surface"
+        QString::number(scene->GetPenetration(), 'g', 3) + " world units deep"
                                  : QString("free space"));
   vtkStringArray* values = touching ? scene->GetProbedValues() : nullptr;
   const int rows = values ? static_cast<int>(values->GetNumberOfValues() / 2) : 0;

@@ -3,6 +3,7 @@
 #include "QVTKOpenGLStereoWidget.h"
 #include "pqActiveObjects.h"
 #include "pqApplicationCore.h"
+#include "pqDataRepresentation.h"
 #include "pqLoadDataReaction.h"
 #include "pqObjectBuilder.h"
 #include "pqOutputPort.h"
@@ -168,6 +169,46 @@ void turnWheel(double x, double y, int notches)
       Qt::NoModifier, Qt::NoScrollPhase, false);
     QApplication::sendEvent(target, &event);
   }
+}
+
+QString representationType()
+{
+  return vtkSMPropertyHelper(
+    pqActiveObjects::instance().activeRepresentation()->getProxy(), "Representation")
+    .GetAsString();
+}
+
+bool engaged()
+{
+  return clientScene() && clientScene()->GetEngaged();
+}
+
+bool touching()
+{
+  return clientScene() && clientScene()->GetTouching();
+}
+
+bool press(double height)
+{
+  if (!waitUntil([] { return !clientScene()->GetBuilding(); }))
+  {
+    return false;
+  }
+  moveMouse(0.5, height);
+  QTest::qWait(200); // the hand comes to the cursor as an arm would
+  turnWheel(0.5, height, 3);
+  return waitUntil(touching);
+}
+
+void setDevice(const char* name)
+{
+  if (!scene())
+  {
+    pressTouch(); // which makes the scene
+    pressTouch();
+  }
+  vtkSMPropertyHelper(scene(), "Device").Set(name);
+  scene()->UpdateVTKObjects();
 }
 
 void startAnew()

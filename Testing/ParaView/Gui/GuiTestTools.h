@@ -55,6 +55,16 @@ void moveMouse(double x, double y);
 /// Turns the wheel there, forwards for more than 0 notches.
 void turnWheel(double x, double y, int notches);
 
+/// The representation of the active source, as the toolbar names it.
+QString representationType();
+bool engaged();
+bool touching();
+/// Waits until the surfaces are built; then the wheel takes the hand to the surface at that height
+/// in the middle of the view, and a little into it. By default where the contour has no hole.
+bool press(double height = 0.4);
+/// The device, as the proxy names it.
+void setDevice(const char* name);
+
 /// Releases the hand, deletes all sources and views, and makes a render view of 400 x 400 pixels.
 void startAnew();
 }

@@ -36,37 +36,6 @@ const QString HapticSurface = "Haptic Surface";
 // What ParaView's own tests allow: antialiasing and text differ between drivers.
 constexpr double ImageThreshold = 20.0;
 
-QString representationType()
-{
-  return vtkSMPropertyHelper(
-    pqActiveObjects::instance().activeRepresentation()->getProxy(), "Representation")
-    .GetAsString();
-}
-
-bool engaged()
-{
-  return clientScene() && clientScene()->GetEngaged();
-}
-
-bool touching()
-{
-  return clientScene() && clientScene()->GetTouching();
-}
-
-/// The wheel takes the hand to the surface below the middle of the view, where the contour has no
-/// hole, and a little into it.
-bool press(double height = 0.4)
-{
-  if (!waitUntil([] { return !clientScene()->GetBuilding(); }))
-  {
-    return false;
-  }
-  moveMouse(0.5, height);
-  QTest::qWait(200); // the hand comes to the cursor as an arm would
-  turnWheel(0.5, height, 3);
-  return waitUntil(touching);
-}
-
 /// Whether the active view looks as the baseline of that name; leaves its picture where not.
 bool looksLike(const char* baseline)
 {
@@ -88,6 +57,10 @@ void HapticsGuiTest::initTestCase()
 void HapticsGuiTest::init()
 {
   startAnew();
+  if (scene())
+  {
+    setDevice("mouse");
+  }
   QVERIFY(!touchIsDown());
   takeComplaint();
 }
@@ -148,7 +121,7 @@ void HapticsGuiTest::touchOfPointsTellsWhatToDo()
       complaint = takeComplaint();
       return !complaint.isEmpty();
     }));
-  QVERIFY2(complaint.contains("no polygon"), qPrintable(complaint));
+  QVERIFY2(complaint.contains("no surface"), qPrintable(complaint));
   QVERIFY(!touchIsDown());
   QVERIFY(!engaged());
 }
@@ -219,4 +192,17 @@ void HapticsGuiTest::undoTakesTheRepresentationBack()
   stack->redo();
   QCOMPARE(representationType(), HapticSurface);
   QVERIFY(!engaged()); // a device starts only when a user says so
+}
+
+void HapticsGuiTest::aDeviceThatIsNotThereTellsSo()
+{
+  makeWaveletContour();
+  setDevice("/nowhere/stroke.hrec");
+  pressTouch();
+  const QString complaint = takeComplaint();
+  QVERIFY2(complaint.contains("/nowhere/stroke.hrec"), qPrintable(complaint));
+  QVERIFY(!touchIsDown());
+  setDevice("mouse");
+  pressTouch();
+  QVERIFY(press());
 }

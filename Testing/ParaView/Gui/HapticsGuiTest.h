@@ -12,6 +12,7 @@ private Q_SLOTS:
   void initTestCase();
   void init();
 
+  // HapticsGuiTest.cxx: the button, and what may go wrong
   void touchFeelsAWaveletContour();
   void touchFeelsARealMesh();
   void touchWithoutASourceTellsWhatToDo();
@@ -21,6 +22,18 @@ private Q_SLOTS:
   void deletingTheTouchedSourceLeavesFreeSpace();
   void resettingTheSessionReleasesTheHand();
   void undoTakesTheRepresentationBack();
+  void aDeviceThatIsNotThereTellsSo();
+
+  // HapticsGuiTestPanel.cxx: the panel, and what goes on beside
+  void theTimerRestsWhileReleased();
+  void aRestingHandIsNotDrawnAgain();
+  void theHandFollowsTheActiveView();
+  void panelAndProxyShowTheSameSettings();
+  void landmarksBecomeASource();
+  void aRecordingIsPlayedBack();
+  void aLargeSurfaceIsBuiltBeside();
+  void buildingCanBeCancelled();
+  void makePictureForReadme();
 };
 
 #endif

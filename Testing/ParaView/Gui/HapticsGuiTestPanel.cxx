@@ -1,0 +1,245 @@
+#include "HapticsGuiTest.h"
+
+#include "GuiTestTools.h"
+
+#include "pqActiveObjects.h"
+#include "pqApplicationCore.h"
+#include "pqDataRepresentation.h"
+#include "pqObjectBuilder.h"
+#include "pqPipelineSource.h"
+#include "pqRenderView.h"
+#include "pqServer.h"
+#include "pqServerManagerModel.h"
+#include "pqTabbedMultiViewWidget.h"
+#include "pqUndoStack.h"
+#include "vtkDataObject.h"
+#include "vtkNew.h"
+#include "vtkPVArrayInformation.h"
+#include "vtkPVDataInformation.h"
+#include "vtkPVHapticScene.h"
+#include "vtkSMPVRepresentationProxy.h"
+#include "vtkSMParaViewPipelineControllerWithRendering.h"
+#include "vtkSMPropertyHelper.h"
+#include "vtkSMProxy.h"
+#include "vtkSMSourceProxy.h"
+#include "vtkSMViewProxy.h"
+
+#include <QAbstractButton>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QFileInfo>
+#include <QGuiApplication>
+#include <QMainWindow>
+#include <QScreen>
+#include <QTest>
+#include <QTimer>
+
+using namespace GuiTest;
+
+namespace
+{
+// Enough to take a while; the full size of an ordinary scan is asked for by an environment variable: see Plugin/README.md.
+const int SphereResolution = qEnvironmentVariableIntValue("HAPTICS_GUI_LARGE") ? 870 : 300;
+
+QTimer* timer()
+{
+  return pqApplicationCore::instance()->findChild<QTimer*>("HapticsTimer");
+}
+
+double stiffness()
+{
+  return vtkSMPropertyHelper(scene(), "Stiffness").GetAsDouble();
+}
+
+pqPipelineSource* makeLargeSphere()
+{
+  pqPipelineSource* sphere = pqApplicationCore::instance()->getObjectBuilder()->createSource(
+    "sources", "SphereSource", pqActiveObjects::instance().activeServer());
+  vtkSMPropertyHelper(sphere->getProxy(), "ThetaResolution").Set(SphereResolution);
+  vtkSMPropertyHelper(sphere->getProxy(), "PhiResolution").Set(SphereResolution);
+  apply(sphere);
+  return sphere;
+}
+}
+
+void HapticsGuiTest::theTimerRestsWhileReleased()
+{
+  makeWaveletContour();
+  pressTouch();
+  QVERIFY(timer()->isActive());
+  QVERIFY2(timer()->interval() >= 1000 / 60, "at most 60 times a second");
+  pressTouch();
+  QVERIFY(waitUntil([] { return !timer()->isActive(); }));
+}
+
+void HapticsGuiTest::aRestingHandIsNotDrawnAgain()
+{
+  makeWaveletContour();
+  pressTouch();
+  QVERIFY(press());
+  QTest::qWait(500);
+  int renders = 0;
+  QObject counting;
+  QObject::connect(pqActiveObjects::instance().activeView(), &pqView::endRender, &counting,
+    [&renders] { ++renders; });
+  QTest::qWait(500);
+  QCOMPARE(renders, 0);
+  turnWheel(0.5, 0.4, 1);
+  QVERIFY(waitUntil([&renders] { return renders > 0; }));
+}
+
+void HapticsGuiTest::theHandFollowsTheActiveView()
+{
+  makeWaveletContour();
+  pqView* first = pqActiveObjects::instance().activeView();
+  pressTouch();
+  QVERIFY(engaged());
+  QVERIFY(vtkSMPropertyHelper(scene(), "View").GetAsProxy() == first->getProxy());
+
+  pqView* second = pqApplicationCore::instance()->getObjectBuilder()->createView(
+    pqRenderView::renderViewType(), pqActiveObjects::instance().activeServer());
+  vtkNew<vtkSMParaViewPipelineControllerWithRendering> controller;
+  controller->AssignViewToLayout(second->getViewProxy());
+  pqActiveObjects::instance().setActiveView(second);
+  QTest::qWait(200);
+  QVERIFY2(engaged(), "a view with nothing to touch takes no hand away");
+  QVERIFY(vtkSMPropertyHelper(scene(), "View").GetAsProxy() == first->getProxy());
+
+  vtkSMProxy* shown = controller->Show(
+    pqActiveObjects::instance().activeSource()->getSourceProxy(), 0, second->getViewProxy());
+  vtkSMRepresentationProxy::SetRepresentationType(shown, "Haptic Surface");
+  shown->UpdateVTKObjects();
+  QVERIFY(waitUntil(
+    [second] {
+      return vtkSMPropertyHelper(scene(), "View").GetAsProxy() == second->getProxy() && engaged();
+    }));
+  QVERIFY(touchIsDown());
+  QCOMPARE(vtkSMPropertyHelper(scene(), "Surfaces").GetAsProxy(0), shown);
+}
+
+void HapticsGuiTest::panelAndProxyShowTheSameSettings()
+{
+  makeWaveletContour();
+  pressTouch();
+  auto* box = find<QDoubleSpinBox>("stiffness");
+  QCOMPARE(box->value(), stiffness());
+  box->setValue(640.0);
+  QCOMPARE(stiffness(), 640.0);
+  pqApplicationCore::instance()->getUndoStack()->undo();
+  QCOMPARE(stiffness(), 500.0);
+  QCOMPARE(box->value(), 500.0);
+  QVERIFY2(engaged(), "undo of a setting leaves the hand as it is");
+  vtkSMPropertyHelper(scene(), "MaximumForce").Set(2.0);
+  scene()->UpdateVTKObjects();
+  QCOMPARE(find<QDoubleSpinBox>("maximumForce")->value(), 2.0);
+}
+
+void HapticsGuiTest::landmarksBecomeASource()
+{
+  makeWaveletContour();
+  pressTouch();
+  QVERIFY(press());
+  auto* drop = find<QAbstractButton>("dropLandmark");
+  QVERIFY(waitUntil([drop] { return drop->isEnabled(); }));
+  drop->click();
+  QCOMPARE(clientScene()->GetNumberOfLandmarks(), 1);
+  auto* toSource = find<QAbstractButton>("exportLandmarks");
+  QVERIFY(waitUntil([toSource] { return toSource->isEnabled(); }));
+  toSource->click();
+  const QList<pqPipelineSource*> sources =
+    pqApplicationCore::instance()->getServerManagerModel()->findItems<pqPipelineSource*>();
+  pqPipelineSource* source = sources.last();
+  QVERIFY2(source->getSMName().startsWith("HapticLandmarks"), qPrintable(source->getSMName()));
+  vtkPVDataInformation* information = source->getSourceProxy()->GetDataInformation(0);
+  QCOMPARE(information->GetNumberOfPoints(), vtkTypeInt64(1));
+  QVERIFY(information->GetArrayInformation("Force", vtkDataObject::POINT));
+  find<QAbstractButton>("clearLandmarks")->click();
+  QCOMPARE(clientScene()->GetNumberOfLandmarks(), 0);
+}
+
+void HapticsGuiTest::aRecordingIsPlayedBack()
+{
+  const QString file = QString(qgetenv("HAPTICS_TEST_OUTPUT")) + "/GuiTest.hrec";
+  makeWaveletContour();
+  pressTouch();
+  pressTouch();
+  vtkSMPropertyHelper(scene(), "RecordingFileName").Set(qPrintable(file));
+  scene()->UpdateVTKObjects();
+  QVERIFY(find<QAbstractButton>("record")->isChecked());
+  pressTouch();
+  QVERIFY(press());
+  pressTouch();
+  find<QAbstractButton>("record")->click();
+  QCOMPARE(vtkSMPropertyHelper(scene(), "RecordingFileName").GetAsString(), "");
+  QVERIFY(QFileInfo(file).size() > 0);
+
+  setDevice(qPrintable(file));
+  QCOMPARE(find<QComboBox>("device")->currentText(), QString("GuiTest.hrec"));
+  pressTouch();
+  QCOMPARE(takeComplaint(), QString());
+  QVERIFY(waitUntil(touching));
+}
+
+void HapticsGuiTest::aLargeSurfaceIsBuiltBeside()
+{
+  makeLargeSphere();
+  int ticks = 0;
+  QTimer ticking;
+  QObject::connect(&ticking, &QTimer::timeout, &ticking, [&ticks] { ++ticks; });
+  pressTouch();
+  QVERIFY(clientScene()->GetBuilding());
+  QVERIFY(find<QWidget>("building")->isVisible());
+  ticking.start(10);
+  QVERIFY(waitUntil([] { return !clientScene()->GetBuilding(); }, 120.0));
+  QVERIFY2(ticks > 0, "The interface went on while the surface was built.");
+  QVERIFY(waitUntil([] { return !find<QWidget>("building")->isVisible(); }));
+  QVERIFY(engaged());
+  QVERIFY(press());
+}
+
+void HapticsGuiTest::buildingCanBeCancelled()
+{
+  makeLargeSphere();
+  pressTouch();
+  QVERIFY(clientScene()->GetBuilding());
+  QTest::mouseClick(find<QAbstractButton>("cancelBuild"), Qt::LeftButton);
+  QVERIFY(waitUntil([] { return !clientScene()->GetBuilding(); }));
+  QString complaint;
+  QVERIFY(waitUntil(
+    [&complaint]
+    {
+      complaint = takeComplaint();
+      return !complaint.isEmpty();
+    }));
+  QVERIFY2(complaint.contains("given up"), qPrintable(complaint));
+  QVERIFY(!touchIsDown());
+}
+
+/// The picture in Plugin/README.md, which names the command.
+void HapticsGuiTest::makePictureForReadme()
+{
+  const QString picture(qgetenv("HAPTICS_GUI_PICTURE"));
+  if (picture.isEmpty())
+  {
+    QSKIP("No picture is asked for.");
+  }
+  find<pqTabbedMultiViewWidget>("MultiViewWidget")->lockViewSize(QSize());
+  auto* window = qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget());
+  window->setGeometry(0, 0, 1280, 860);
+  openFile(QString(qgetenv("HAPTICS_SURFACES_DIR")) + "/pial.vtp");
+  auto* shown = vtkSMPVRepresentationProxy::SafeDownCast(
+    pqActiveObjects::instance().activeRepresentation()->getProxy());
+  shown->SetScalarColoring("Sulc", vtkDataObject::POINT);
+  shown->RescaleTransferFunctionToDataRange();
+  pressTouch();
+  vtkSMPropertyHelper(scene(), "ShowTrail").Set(1);
+  scene()->UpdateVTKObjects();
+  QVERIFY(press(0.55));
+  for (double x = 0.5; x < 0.575; x += 0.002)
+  {
+    moveMouse(x, 0.55);
+    QTest::qWait(30);
+  }
+  QTest::qWait(1000);
+  QVERIFY(QGuiApplication::primaryScreen()->grabWindow(0, 0, 0, 1280, 860).save(picture));
+}
