@@ -103,6 +103,11 @@ public:
   int AddSurface(vtkAlgorithmOutput* geometry);
   int AddSurface(vtkPolyData* geometry);
   ///@}
+  /**
+   * As AddSurface(), for Python: VTK's choice between overloads there does not know an actor of a
+   * class that Python has derived from vtkActor and others, as PyVista's is.
+   */
+  int AddSurfaceActor(vtkActor* actor) { return this->AddSurface(actor); }
 
   ///@{
   /**

@@ -19,8 +19,9 @@ import pyvista
 def test_touch():
     plotter = pyvista.Plotter(window_size=(200, 200))
     plotter.add_mesh(pyvista.Sphere(radius=30.0), name="ball")
-    plotter.add_mesh(pyvista.Plane(i_size=5.0, j_size=5.0), name="plate")
     touch = vtkhaptics.enable(plotter)
+    assert touch.scene.GetNumberOfSurfaces() == 1
+    touch.add(plotter.add_mesh(pyvista.Plane(i_size=5.0, j_size=5.0), name="plate"))
     assert touch.scene.GetNumberOfSurfaces() == 2
     assert touch.scene.IsEngaged()
     plotter.show(auto_close=False, interactive_update=True)
@@ -32,9 +33,11 @@ def test_touch():
     touch.device.SetPressed(True)
     touch.scene.Step(300)
     assert touch.scene.GetTouching(), touch.scene.GetErrorMessage()
+    plotter.render()
     with_hand = plotter.screenshot(None, return_img=True).astype(int)
     touch.disable()
     assert touch.scene.GetForce() == (0.0, 0.0, 0.0)
+    plotter.render()
     without = plotter.screenshot(None, return_img=True).astype(int)
     assert (abs(with_hand - without).max(axis=2) > 60).sum() > 50, "the hand was not shown"
     plotter.close()
