@@ -107,8 +107,9 @@ struct TestPicture
     this->Renderer->ResetCameraClippingRange();
     this->Hand->IncludeInClippingRange(this->Renderer);
     this->Window->Render();
-    // The default of 10 would not even miss the arrow; this leaves room for another driver's edges.
-    const int result = vtkRegressionTestImageThreshold(this->Window, 0.2);
+    // The default of 10 would not even miss the arrow. VTK 9.1 to 9.3 with Mesa 22 and 25 differ by
+    // 0; this leaves room for another driver's edges.
+    const int result = vtkRegressionTestImageThreshold(this->Window, 0.05);
     if (result == vtkRegressionTester::DO_INTERACTOR)
     {
       this->Interactor->Start();

@@ -18,14 +18,14 @@ int TestMarks(int argc, char* argv[])
   vtkNew<vtkHapticScene> scene;
   scene->AddSurface(ball.Actor);
   scene->SetDevice(device);
-  scene->SetStiffness(210.0);
+  scene->SetStiffness(110.0);
   vtkGodObjectActor* hand = scene->GetGodObjectActor();
   hand->ShowTrailOn();
   hand->ShowActiveTrianglesOn();
   hand->ShowLegendOn();
   hand->ColorForceByMagnitudeOn();
   hand->SeeThroughOff();
-  hand->SetSize(0.025);
+  hand->SetSize(0.035);
   for (int tick = 0; tick <= 400; ++tick)
   {
     const double s = tick / 400.0;

@@ -24,7 +24,7 @@ from vtkmodules.vtkTestingRendering import vtkTesting
 
 SKIPPED = 77
 # VTK's default of 10 would not even miss the arrow; this leaves room for another driver's edges.
-THRESHOLD = 0.2
+THRESHOLD = 0.05
 PRESSED = 0.004  # [m], device frame
 
 # name: (file, values, where the camera is, its up, from and to in the view, 0 to 1)

@@ -24,7 +24,7 @@ from vtkmodules.vtkRenderingCore import (
 from vtkmodules.vtkTestingRendering import vtkTesting
 
 # VTK's default of 10 would not even miss the arrow; this leaves room for another driver's edges.
-THRESHOLD = 0.2
+THRESHOLD = 0.05
 
 baseline, output = sys.argv[1:3]
 
