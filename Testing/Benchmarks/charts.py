@@ -193,7 +193,7 @@ def scene(about, runs, output):
     both = ours + other
     forces = sorted(r["force_n"] for r in both)
     # A hammer's blows may be cut off: what matters is around the rest.
-    low, high = forces[len(forces) // 200], forces[-1 - len(forces) // 200]
+    low, high = forces[len(forces) // 400], forces[-1 - len(forces) // 400]
     xs = [r["hip_x_mm"] for r in surface] + [r["held_x_mm"] for r in ours]
     zs = [r["hip_z_mm"] for r in surface + ours]
     width, height = max(xs) - min(xs), max(zs) - min(zs)
