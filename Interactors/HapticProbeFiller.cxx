@@ -65,7 +65,7 @@ void vtkHapticProbeFiller::SetContact(vtkHapticProbe* probe, const haptics::Tick
   haptics::Vec3 corners[3];
   for (std::size_t i = 0; i < 3; ++i)
   {
-    corners[i] = surface->Points()[static_cast<std::size_t>(triangle[i])];
+    corners[i] = surface->PointAt(triangle[i], tick.DeformFraction);
   }
   FindWeights(tick.Local, corners, probe->Weights);
   haptics::Vec3 local{};

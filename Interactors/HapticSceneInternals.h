@@ -10,6 +10,7 @@
 #include "vtkHapticScene.h"
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -23,7 +24,8 @@ public:
   bool BackgroundBuilding = false;
   bool WasBuilding = false; ///< as observers were told last
   double BuildProgress = 1.0;
-  double LastPull = 0.0; ///< of changed surfaces, the servo's time [s]
+  std::uint64_t Published = 0; ///< generation of the last god-object
+  double LastPull = 0.0;       ///< of changed surfaces, the servo's time [s]
   haptics::TraceRecorder Recorder;
   haptics::SceneEvents Events;
   std::array<double, 16> HomeWorkspace{}; ///< as it was set or fitted last

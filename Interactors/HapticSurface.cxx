@@ -22,6 +22,15 @@ namespace
 {
 /// [s]: a surface whose next update comes later than this has rested before it.
 constexpr double LongestDuration = 0.1;
+
+/// How long a change takes: while one comes with each update, or with every other one, the time
+/// from one to the next.
+double DurationSince(double last, const PullSettings& settings)
+{
+  const double since = settings.Now - last;
+  const double duration = since > 0.0 && since <= LongestDuration ? since : settings.Interval;
+  return std::clamp(duration, 0.0, LongestDuration);
+}
 }
 
 HapticSurface::HapticSurface(int id, vtkActor* actor)
@@ -145,7 +154,9 @@ bool HapticSurface::Pull(const PullSettings& settings, std::string& error)
   const Version version = this->Current();
   const bool isNew =
     !this->Tried || !(version == this->LastTried) || (hasMoved && this->WasRefused);
-  if (!this->Build && isNew)
+  // One that comes too soon for the servo waits; another may come before it is its turn.
+  const bool mayWait = settings.IsRunning && !settings.IsTaken && this->InForce;
+  if (!this->Build && isNew && !mayWait)
   {
     this->Tried = true;
     this->LastTried = version;
@@ -154,9 +165,16 @@ bool HapticSurface::Pull(const PullSettings& settings, std::string& error)
   }
   if (!this->Build && this->NeedsBaking)
   {
+    if (this->Base->Surface())
+    {
+      this->BuildInput = nullptr;
+      this->StartBuild(settings, this->Base, error);
+    }
+    else // deformed meanwhile
+    {
+      this->FollowGeometry(settings, error);
+    }
     this->NeedsBaking = false;
-    this->BuildInput = nullptr;
-    this->StartBuild(settings, this->Base, error);
   }
   return this->Touched() != before;
 }
@@ -175,7 +193,8 @@ void HapticSurface::FollowGeometry(const PullSettings& settings, std::string& er
     return;
   }
   const PreparationOptions options = this->Preparation->GetOptions();
-  if (this->Base && this->Base->Key() == SurfacePreparation::MakeKey(geometry, options))
+  if (!this->NeedsBaking && this->Base &&
+    this->Base->Key() == SurfacePreparation::MakeKey(geometry, options))
   {
     this->KeepAttributes(geometry); // a colour has changed, or the like
     return;
@@ -220,10 +239,7 @@ void HapticSurface::MoveTo(const RigidPose& pose, const PullSettings& settings, 
   {
     return;
   }
-  // While updates come with a motion in each, or in every other one, that is how long it takes.
-  const double since = settings.Now - this->LastMoved;
-  double duration = since > 0.0 && since <= LongestDuration ? since : settings.Interval;
-  duration = std::clamp(duration, 0.0, LongestDuration);
+  const double duration = DurationSince(this->LastMoved, settings);
   this->LastMoved = settings.Now;
   const double needed = this->LengthOfWay(pose) / settings.LargestSpeed;
   if (!settings.IsLive || needed > LongestDuration)
@@ -280,7 +296,15 @@ void HapticSurface::StartBuild(
   {
     baked = IdentityMatrix;
   }
-  this->Build = std::make_shared<SurfaceBuild>(std::move(preparation), baked);
+  this->Build = std::make_shared<SurfaceBuild>(preparation, baked);
+  if (this->Build->Prepares() && this->InForce && AreSame(baked, this->Baked) && settings.IsLive &&
+    settings.IsTaken)
+  {
+    preparation->FollowOn(this->Base);
+    this->Build->DeformFrom(
+      this->InForce, this->Deformer, DurationSince(this->LastChanged, settings));
+  }
+  this->LastChanged = settings.Now;
   if (settings.Worker)
   {
     if (this->Build->Prepares())
@@ -311,6 +335,10 @@ void HapticSurface::TakeBuild(const PullSettings& settings, std::string& error)
     this->Preparation->Take(
       done->Preparation(), isPrepared ? CleaningResult::Done : done->Result());
   }
+  if (done->Deforms())
+  {
+    done->Preparation()->Finish();
+  }
   if (!done->Snapshot())
   {
     error = done->Error().empty() ? this->PreparationError : done->Error();
@@ -320,10 +348,14 @@ void HapticSurface::TakeBuild(const PullSettings& settings, std::string& error)
   const bool isOtherFrame = !this->InForce || !AreSame(done->Matrix(), this->Baked);
   this->InForce = done->Snapshot();
   this->Base = done->Preparation();
+  this->Deformer = done->Deformer();
   this->Baked = done->Matrix();
   if (isOtherGeometry)
   {
-    this->KeepCellIds();
+    if (!done->Deforms())
+    {
+      this->KeepCellIds();
+    }
     this->KeepAttributes(this->BuildInput);
   }
   if (isOtherFrame)

@@ -29,6 +29,10 @@ struct PullSettings
   BackgroundWorker* Worker = nullptr;
   /// Whether a servo ticks; where not, what moves is in its new place at once.
   bool IsLive = false;
+  /// Whether it has what was told last; else a snapshot that it has not seen must not be deformed.
+  bool IsTaken = false;
+  /// Whether it runs on its own, and will.
+  bool IsRunning = false;
   double Now = 0.0;          ///< the servo's time [s]
   double Interval = 0.0;     ///< since the Pull() before [s]
   double LargestSpeed = 0.0; ///< that a hand can follow [world unit / s]
@@ -39,6 +43,9 @@ struct PullSettings
 /// The geometry is prepared as a vtkGodObjectFilter of its own says. The actor's matrix is split:
 ///
 ///     matrix = Pose() * baked
+///
+/// A geometry that has the cells of the one before, with points elsewhere, deforms over the time
+/// between two changes; any other becomes a snapshot that takes the place of the last.
 ///
 /// The pose is rigid and goes to the servo as it is, so an actor that is dragged costs nothing
 /// but that. Scale, shear and mirror are baked into the snapshot's points: where they change a new
@@ -138,8 +145,10 @@ private:
   vtkSmartPointer<vtkPolyData> BuildInput; ///< with the arrays as they were when it started
 
   Snapshot InForce;
-  std::shared_ptr<SurfacePreparation> Base; ///< what InForce was made of
-  Matrix4 Baked = IdentityMatrix;           ///< and by which matrix
+  std::shared_ptr<SurfacePreparation> Base;  ///< what InForce was made of
+  Matrix4 Baked = IdentityMatrix;            ///< and by which matrix
+  std::shared_ptr<SurfaceDeformer> Deformer; ///< what made InForce; null where it was built
+  double LastChanged = 0.0;                  ///< the geometry, the servo's time [s]
   std::shared_ptr<SurfaceMotion> Moving;
   RigidPose Placed;
   bool IsElsewhere = false;

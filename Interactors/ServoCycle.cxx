@@ -137,6 +137,7 @@ void ServoCycle::Record(NumberedGodObject& god, const Vec3& force) noexcept
   if (contact.NumberOfConstraints > 0)
   {
     this->Now.Local = god.Object->LocalPosition(contact.Constraints[0].Surface);
+    this->Now.DeformFraction = god.Object->DeformFraction(contact.Constraints[0].Surface);
   }
   this->Now.Penetration = contact.Penetration;
   this->Now.Status = contact.Status;

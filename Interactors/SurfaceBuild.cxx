@@ -14,10 +14,45 @@ SurfaceBuild::SurfaceBuild(std::shared_ptr<SurfacePreparation> preparation, cons
 {
 }
 
+void SurfaceBuild::DeformFrom(std::shared_ptr<const TriangleSurface> from,
+  std::shared_ptr<SurfaceDeformer> deformer, double duration)
+{
+  this->Before = std::move(from);
+  this->Shaper = std::move(deformer);
+  this->Duration = duration;
+}
+
+bool SurfaceBuild::Deform()
+{
+  std::vector<Vec3> points;
+  if (!this->Before || !this->Report(0.0) || !this->Prepared->Follow(points))
+  {
+    return false;
+  }
+  for (Vec3& point : points)
+  {
+    point = Transformed(this->Baked, point);
+  }
+  if (!this->Shaper)
+  {
+    this->Shaper = std::make_shared<SurfaceDeformer>(this->Before);
+  }
+  std::string error; // whatever it is, building anew helps or tells
+  this->Built = this->Shaper->Deform(std::move(points), this->Duration, error);
+  return this->Built != nullptr;
+}
+
 void SurfaceBuild::Work()
 {
   try
   {
+    this->HasDeformed = this->Deform();
+    if (this->HasDeformed)
+    {
+      this->Outcome = CleaningResult::Done;
+      return;
+    }
+    this->Shaper.reset();
     this->BuildAnew();
   }
   catch (const std::bad_alloc&)

@@ -3,6 +3,7 @@
 
 #include "ActorMatrix.h"
 #include "BackgroundWorker.h"
+#include "SurfaceDeformer.h"
 #include "SurfacePreparation.h"
 #include "TriangleSurface.h"
 
@@ -21,12 +22,21 @@ public:
   /// geometry's frame to the snapshot's; affine, neither flat nor infinite.
   SurfaceBuild(std::shared_ptr<SurfacePreparation> preparation, const Matrix4& matrix);
 
+  /// Where the geometry is the one before in another shape, the snapshot becomes `from` deformed
+  /// over `duration` [s], and nothing is cleaned or built anew. `deformer`: what made `from`; null
+  /// where it was built. Before Run(); the preparation was given what `from` was made of.
+  void DeformFrom(std::shared_ptr<const TriangleSurface> from,
+    std::shared_ptr<SurfaceDeformer> deformer, double duration);
+
   /// Is called with the progress, on the thread that does the work; false stops it.
   void SetProgressCall(ProgressCall call) { this->Listener = std::move(call); }
 
   const std::shared_ptr<SurfacePreparation>& Preparation() const { return this->Prepared; }
-  /// Whether the preparation was new.
-  bool Prepares() const { return this->IsNew; }
+  /// Whether the preparation was new, and has run.
+  bool Prepares() const { return this->IsNew && !this->HasDeformed; }
+  /// Whether the snapshot is the one before deformed, and what did it.
+  bool Deforms() const { return this->HasDeformed; }
+  const std::shared_ptr<SurfaceDeformer>& Deformer() const { return this->Shaper; }
   const Matrix4& Matrix() const { return this->Baked; }
 
   ///@{
@@ -42,12 +52,17 @@ protected:
   void Work() override;
 
 private:
+  bool Deform();
   void BuildAnew();
   void Bake(const TriangleSurface& local);
 
   std::shared_ptr<SurfacePreparation> Prepared;
   Matrix4 Baked;
   bool IsNew;
+  bool HasDeformed = false;
+  std::shared_ptr<const TriangleSurface> Before;
+  std::shared_ptr<SurfaceDeformer> Shaper;
+  double Duration = 0.0;
   ProgressCall Listener;
   CleaningResult Outcome = CleaningResult::Aborted;
   std::shared_ptr<const TriangleSurface> Built;

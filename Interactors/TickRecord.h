@@ -24,6 +24,7 @@ struct TickRecord
   /// The god-object in the frame of the first constraint's surface, relative to that snapshot's
   /// Origin(); surfaces move, this stays with them.
   Vec3 Local{};
+  double DeformFraction = 1.0; ///< of that snapshot, see TriangleSurface::PointAt()
   Vec3 WorldForce{};        ///< the force along the world's axes [N]
   double Penetration = 0.0; ///< |god-object - HIP| [world unit]
 

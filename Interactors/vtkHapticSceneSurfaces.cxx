@@ -238,6 +238,8 @@ bool vtkHapticScene::PullSurfaces()
   settings.Worker = this->Internal->BackgroundBuilding ? &this->Internal->Worker : nullptr;
   const int state = this->Servo->GetState();
   settings.IsLive = state == vtkHapticServo::Running || state == vtkHapticServo::Stepping;
+  settings.IsRunning = state == vtkHapticServo::Running;
+  settings.IsTaken = this->Servo->GetLatestRecord().Generation == this->Internal->Published;
   settings.Now = this->Servo->GetTime();
   settings.Interval = settings.Now - std::exchange(this->Internal->LastPull, settings.Now);
   settings.LargestSpeed = LargestSpeed * std::cbrt(this->Workspace->Determinant());
@@ -258,6 +260,7 @@ bool vtkHapticScene::PullSurfaces()
     }
     const std::uint64_t generation =
       this->Servo->PublishGodObject(std::make_unique<haptics::GodObject>(std::move(touched)));
+    this->Internal->Published = generation;
     if (!this->Servo->IsRunning())
     {
       surfaces.Forget(generation); // all records are drained, no tick can tell of older ones

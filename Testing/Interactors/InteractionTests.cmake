@@ -3,6 +3,7 @@
 # Threads run in some of these, but no time is asserted.
 haptics_add_gtest(TestHapticScene
   TestBackgroundBuilding.cxx
+  TestChangingSurfaces.cxx
   TestGeodesicDistance.cxx
   TestHapticScene.cxx
   TestHapticSceneActors.cxx
@@ -11,8 +12,8 @@ haptics_add_gtest(TestHapticScene
   TestHapticSceneWorkspace.cxx
   TestMovingActors.cxx
   TestSceneEvents.cxx
-  LIBRARIES Haptics::Devices Haptics::Filters Haptics::Interactors VTK::FiltersSources
-            VTK::RenderingOpenGL2)
+  LIBRARIES Haptics::Devices Haptics::Filters Haptics::Interactors VTK::FiltersCore
+            VTK::FiltersSources VTK::RenderingOpenGL2)
 haptics_add_gtest(TestInteractorStyleHaptic
   TestInteractorStyleHaptic.cxx
   TestMouseHapticDevice.cxx
