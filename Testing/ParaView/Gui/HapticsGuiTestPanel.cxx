@@ -77,12 +77,16 @@ void HapticsGuiTest::aRestingHandIsNotDrawnAgain()
   makeWaveletContour();
   pressTouch();
   QVERIFY(press());
-  QTest::qWait(500);
   int renders = 0;
   QObject counting;
   QObject::connect(pqActiveObjects::instance().activeView(), &pqView::endRender, &counting,
     [&renders] { ++renders; });
-  QTest::qWait(500);
+  // On a busy machine the hand takes a while to rest.
+  for (int i = 0; i == 0 || (i < 10 && renders > 0); ++i)
+  {
+    renders = 0;
+    QTest::qWait(500);
+  }
   QCOMPARE(renders, 0);
   turnWheel(0.5, 0.4, 1);
   QVERIFY(waitUntil([&renders] { return renders > 0; }));
