@@ -122,6 +122,7 @@ Matrix4 HapticSurface::CurrentMatrix()
 bool HapticSurface::Pull(const PullSettings& settings, std::string& error)
 {
   const Snapshot before = this->Touched();
+  const bool wasShown = this->Shown;
   this->IsElsewhere = false;
   this->Shown = !this->Source || (this->Source->GetVisibility() && this->Source->GetPickable());
   if (this->Build && this->Build->IsDone())
@@ -150,6 +151,10 @@ bool HapticSurface::Pull(const PullSettings& settings, std::string& error)
   if (hasMoved && this->InForce)
   {
     this->NeedsBaking = !this->FollowMatrix(settings, error);
+  }
+  if (!wasShown && this->Moving)
+  {
+    this->Moving->JumpTo(this->Placed); // what moved unseen must not push the hand now
   }
   const Version version = this->Current();
   const bool isNew =

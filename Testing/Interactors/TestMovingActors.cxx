@@ -243,6 +243,19 @@ TEST(MovingActors, OneThatComesBackFromAScaleOfZeroIsTouched)
   EXPECT_TRUE(hand.Scene->IsSurfaceTouchable(id));
 }
 
+TEST(MovingActors, OneThatMovesWhileItIsHiddenPushesNothingWhenItComesBack)
+{
+  TableActor hand;
+  hand.Actor->VisibilityOff();
+  hand.Scene->Step(10);
+  hand.Actor->SetPosition(0.0, 0.0, 0.02); // past the hand at 0.01
+  hand.Scene->Step(10);
+  hand.Actor->VisibilityOn();
+  hand.Scene->Step(100);
+  EXPECT_FALSE(hand.Scene->GetTouching());
+  EXPECT_NEAR(hand.GodObjectHeight(), 0.01, 1e-12);
+}
+
 TEST(MovingActors, OneThatIsFasterThanAHandIsPutThereWithAMessageAndNoForce)
 {
   TableActor hand;
