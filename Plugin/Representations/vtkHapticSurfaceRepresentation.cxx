@@ -4,34 +4,57 @@
 #include "vtkAppendPolyData.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
+#include "vtkDataAssembly.h"
+#include "vtkDataAssemblyUtilities.h"
 #include "vtkInformation.h"
 #include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVLODActor.h"
 #include "vtkPVRenderView.h"
+#include "vtkPartitionedDataSetCollection.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkTriangleFilter.h"
 #include "vtkTrivialProducer.h"
 
+#include <algorithm>
+#include <set>
+
 vtkStandardNewMacro(vtkHapticSurfaceRepresentation);
 
 namespace
 {
-/// Every polydata in a data object, in one.
-vtkSmartPointer<vtkPolyData> Gather(vtkDataObject* data)
+/// The flat indices of the leaves that selectors name; none where they name all, or nothing known.
+std::set<unsigned int> Selected(
+  vtkCompositeDataSet* data, const std::vector<std::string>& selectors)
+{
+  vtkNew<vtkDataAssembly> hierarchy;
+  if (selectors.empty() || selectors == std::vector<std::string>{ "/" } ||
+    !vtkDataAssemblyUtilities::GenerateHierarchy(data, hierarchy))
+  {
+    return {};
+  }
+  const std::vector<unsigned int> ids = vtkDataAssemblyUtilities::GetSelectedCompositeIds(
+    selectors, hierarchy, vtkPartitionedDataSetCollection::SafeDownCast(data), true);
+  return { ids.begin(), ids.end() };
+}
+
+/// Every polydata in a data object whose block is shown, in one.
+vtkSmartPointer<vtkPolyData> Gather(vtkDataObject* data, const std::vector<std::string>& selectors)
 {
   auto* composite = vtkCompositeDataSet::SafeDownCast(data);
   if (!composite)
   {
     return vtkPolyData::SafeDownCast(data);
   }
+  const std::set<unsigned int> shown = Selected(composite, selectors);
   vtkNew<vtkAppendPolyData> append;
   auto blocks = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
   for (blocks->InitTraversal(); !blocks->IsDoneWithTraversal(); blocks->GoToNextItem())
   {
     auto* block = vtkPolyData::SafeDownCast(blocks->GetCurrentDataObject());
-    if (block && block->GetNumberOfPoints() > 0)
+    const bool isShown = shown.empty() || shown.count(blocks->GetCurrentFlatIndex()) > 0;
+    if (block && block->GetNumberOfPoints() > 0 && isShown)
     {
       append->AddInputData(block);
     }
@@ -73,7 +96,8 @@ int vtkHapticSurfaceRepresentation::RequestData(
   {
     return 0;
   }
-  vtkSmartPointer<vtkPolyData> surface = Gather(this->GetRenderedDataObject(0));
+  this->ShownBlocks.assign(this->BlockSelectors.begin(), this->BlockSelectors.end());
+  vtkSmartPointer<vtkPolyData> surface = Gather(this->GetRenderedDataObject(0), this->ShownBlocks);
   this->LocalTriangles = surface ? Triangulate(surface) : vtkSmartPointer<vtkPolyData>::New();
   return 1;
 }
@@ -81,6 +105,12 @@ int vtkHapticSurfaceRepresentation::RequestData(
 int vtkHapticSurfaceRepresentation::ProcessViewRequest(
   vtkInformationRequestKey* request, vtkInformation* inInfo, vtkInformation* outInfo)
 {
+  const bool blocksChanged = !std::equal(this->ShownBlocks.begin(), this->ShownBlocks.end(),
+    this->BlockSelectors.begin(), this->BlockSelectors.end());
+  if (request == vtkPVView::REQUEST_UPDATE() && blocksChanged)
+  {
+    this->MarkModified(); // for drawing no new data are needed, for touching they are
+  }
   if (!this->Superclass::ProcessViewRequest(request, inInfo, outInfo))
   {
     this->Receive(nullptr); // hidden

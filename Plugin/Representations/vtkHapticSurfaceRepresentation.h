@@ -7,8 +7,9 @@
  * own, HapticPort. The view brings all pieces to the client with each render, wherever it draws.
  * GetTouchedActor() has them there.
  *
- * Any data whose outside is a surface will do, as for Surface. The blocks of composite data become
- * one surface; point and cell arrays that all blocks have come along, to be probed.
+ * Any data whose outside is a surface will do, as for Surface. The blocks of composite data that
+ * are shown become one surface; point and cell arrays that all blocks have come along, to be
+ * probed.
  *
  * While another representation is chosen for the source, or the source is hidden, it cannot be
  * touched.
@@ -24,6 +25,9 @@
 #include "vtkHapticsRepresentationsModule.h"
 #include "vtkNew.h"
 #include "vtkSmartPointer.h"
+
+#include <string>
+#include <vector>
 
 class vtkActor;
 class vtkDataObject;
@@ -64,6 +68,7 @@ private:
 
   void Receive(vtkDataObject* delivered);
 
+  std::vector<std::string> ShownBlocks;        // the selectors that LocalTriangles were made by
   vtkSmartPointer<vtkPolyData> LocalTriangles; // another object after each change
   vtkSmartPointer<vtkDataObject> Delivered;
   vtkMTimeType DeliveredTime = 0;

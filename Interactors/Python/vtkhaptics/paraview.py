@@ -104,7 +104,10 @@ class Scene:
             raise HapticsError(
                 f"A view of the kind {view.GetXMLLabel()} cannot be touched. Give a render view."
             )
-        display = simple.Show(source, view)
+        try:
+            display = simple.Show(source, view)
+        except RuntimeError as error:
+            raise HapticsError(f"{source.GetXMLLabel()} cannot be shown: {error}") from error
         names = display.SMProxy.GetProperty("Representation")
         if not names or "Haptic Surface" not in display.GetProperty("Representation").Available:
             raise HapticsError(
