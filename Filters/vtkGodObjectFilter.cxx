@@ -1,9 +1,11 @@
 #include "vtkGodObjectFilter.h"
 
 #include "SurfacePreparation.h"
+#include "vtkHapticProperties.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkDataObject.h"
 #include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
@@ -14,12 +16,21 @@
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
 
+#include <algorithm>
 #include <memory>
+#include <string>
 
 class vtkGodObjectFilter::vtkInternals
 {
 public:
   std::shared_ptr<const haptics::SurfacePreparation> Built; // null, or with a surface
+  vtkNew<vtkHapticProperties> Properties;
+
+  // The last properties made, and what of.
+  std::shared_ptr<const haptics::SurfaceProperties> Made;
+  std::shared_ptr<const haptics::TriangleSurface> MadeFor;
+  vtkMTimeType MadeAt = 0;
+  std::string Said; // what was wrong with them
 };
 
 vtkStandardNewMacro(vtkGodObjectFilter);
@@ -37,6 +48,55 @@ int vtkGodObjectFilter::FillInputPortInformation(int port, vtkInformation* info)
   // there.
   info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
   return this->Superclass::FillInputPortInformation(port, info);
+}
+
+vtkHapticProperties* vtkGodObjectFilter::GetProperties()
+{
+  return this->Internals->Properties;
+}
+
+vtkMTimeType vtkGodObjectFilter::GetMTime()
+{
+  return std::max(this->Superclass::GetMTime(), this->Internals->Properties->GetMTime());
+}
+
+std::shared_ptr<const haptics::SurfaceProperties> vtkGodObjectFilter::GetSurfaceProperties() const
+{
+  return this->Internals->Made;
+}
+
+std::shared_ptr<const haptics::SurfaceProperties> vtkGodObjectFilter::MakeProperties(
+  vtkPolyData* geometry, const std::shared_ptr<const haptics::TriangleSurface>& surface)
+{
+  const auto choose = [&](int property)
+  {
+    vtkHapticProperties::ChosenArray chosen;
+    vtkInformation* const wanted = this->GetInputArrayInformation(property);
+    const char* const name = wanted->Get(vtkDataObject::FIELD_NAME());
+    if ((name && *name) || wanted->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()))
+    {
+      int association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
+      chosen.Array = this->GetInputArrayToProcess(property, geometry, association);
+      chosen.IsPerCell = association == vtkDataObject::FIELD_ASSOCIATION_CELLS;
+      chosen.Missing = chosen.Array ? "" : name ? name : "of the attribute asked for";
+    }
+    return chosen;
+  };
+  vtkInternals& internals = *this->Internals;
+  const vtkMTimeType now = internals.Properties->GetMTime();
+  const bool isSame = internals.MadeFor == surface && internals.MadeAt == now;
+  std::string problems;
+  auto made = internals.Properties->Build(
+    geometry, *surface, choose, isSame ? internals.Made : nullptr, problems);
+  if (!problems.empty() && problems != internals.Said)
+  {
+    vtkErrorMacro(<< problems);
+  }
+  internals.Said = problems;
+  internals.Made = made;
+  internals.MadeFor = surface;
+  internals.MadeAt = now;
+  return made;
 }
 
 haptics::PreparationOptions vtkGodObjectFilter::GetOptions() const
@@ -81,6 +141,7 @@ int vtkGodObjectFilter::RequestData(
   if (!input)
   {
     this->Internals->Built.reset();
+    this->Internals->Made.reset();
     vtkErrorMacro("There is no input to touch. Connect a vtkPolyData with polygons or strips.");
     return 1;
   }
@@ -95,6 +156,7 @@ int vtkGodObjectFilter::RequestData(
         this->UpdateProgress(fraction);
         return !this->GetAbortExecute();
       });
+    this->Internals->Made.reset();
     if (!this->Take(prepared, result))
     {
       return 1;
@@ -106,6 +168,7 @@ int vtkGodObjectFilter::RequestData(
     vtkWarningMacro(<< dropped << " data arrays of the input are shorter than its points or cells, "
                     << "and were left out.");
   }
+  this->MakeProperties(output, this->Internals->Built->Surface());
   this->AddReport(output);
   this->UpdateProgress(1.0);
   return 1;
@@ -260,6 +323,8 @@ void vtkGodObjectFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "AutomaticCrackWidth: " << (this->AutomaticCrackWidth ? "On\n" : "Off\n");
   os << indent << "CrackWidth: " << this->CrackWidth << "\n";
   os << indent << "NumberOfBuilds: " << this->NumberOfBuilds << "\n";
+  os << indent << "Properties:\n";
+  this->Internals->Properties->PrintSelf(os, indent.GetNextIndent());
   if (!this->Internals->Built)
   {
     os << indent << "Surface: (none)\n";

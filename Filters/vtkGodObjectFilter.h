@@ -21,6 +21,9 @@
  * modification times of the vtkPoints and vtkCellArray objects; code that writes into their memory
  * has to call their Modified().
  *
+ * How the surface feels, by constants and by arrays of the input, is the business of
+ * GetProperties() and SetInputArrayToProcess().
+ *
  * Errors: an input without polygons, a point that is not finite, a cell that names a point that
  * does not exist, and a surface without area each give an error that says where and what to do, an
  * empty output and no surface. A surface that was handed out earlier stays valid for who holds it.
@@ -33,7 +36,7 @@
  * The method: C. B. Zilles and J. K. Salisbury, "A Constraint-based God-object Method For Haptic
  * Display", 1995, which needs triangles.
  *
- * @sa vtkGodObjectTrace vtkHapticScene
+ * @sa vtkHapticProperties vtkGodObjectTrace vtkHapticScene
  */
 
 #ifndef vtkGodObjectFilter_h
@@ -44,10 +47,13 @@
 
 #ifndef __VTK_WRAP__
 #include "SurfacePreparation.h" // for haptics::SurfacePreparation
+#include "SurfaceProperties.h"  // for haptics::SurfaceProperties
 #include "TriangleSurface.h"    // for haptics::TriangleSurface
 
 #include <memory> // for std::shared_ptr
 #endif
+
+class vtkHapticProperties;
 
 class VTKHAPTICSFILTERS_EXPORT vtkGodObjectFilter : public vtkPolyDataAlgorithm
 {
@@ -124,7 +130,26 @@ public:
   vtkGetMacro(CrackWidth, double);
   ///@}
 
+  /**
+   * @brief How the surface feels. Never null; none by default. The arrays that it maps are chosen
+   * by SetInputArrayToProcess(), with the indices of vtkHapticProperties::PropertyType. A change
+   * does not build the surface anew.
+   */
+  vtkHapticProperties* GetProperties();
+  vtkMTimeType GetMTime() override;
+
 #ifndef __VTK_WRAP__
+  /**
+   * @brief The properties as of the last Update(); null where the surface is plain.
+   */
+  std::shared_ptr<const haptics::SurfaceProperties> GetSurfaceProperties() const;
+  /**
+   * @brief Properties for a surface of this geometry, which has the arrays, point for point and
+   * triangle for triangle; null where it is plain. Reports errors as Update() does.
+   */
+  std::shared_ptr<const haptics::SurfaceProperties> MakeProperties(
+    vtkPolyData* geometry, const std::shared_ptr<const haptics::TriangleSurface>& surface);
+
   /**
    * @brief The surface as of the last Update(); null before, and after an error or an abort.
    */

@@ -1,9 +1,11 @@
 #include "vtkGodObjectTrace.h"
 
 #include "vtkGodObjectFilter.h"
+#include "vtkHapticProperties.h"
 
 #include "ForceModel.h"
 #include "GodObject.h"
+#include "SurfaceForce.h"
 
 #include "vtkAlgorithmOutput.h"
 #include "vtkCellArray.h"
@@ -54,6 +56,18 @@ const haptics::Constraint& StrongestConstraint(const haptics::Contact& contact)
     { return push(a) < push(b); });
 }
 
+haptics::Vec3 Scaled(const haptics::Vec3& v, double scale)
+{
+  return { scale * v[0], scale * v[1], scale * v[2] };
+}
+
+/// What a hand that went from the last HIP to this one has put in against a force [J].
+double Work(const haptics::Vec3& force, const haptics::Vec3& from, const haptics::Vec3& to)
+{
+  return -force[0] * (to[0] - from[0]) - force[1] * (to[1] - from[1]) -
+    force[2] * (to[2] - from[2]);
+}
+
 /// The vtkGodObjectFilter whose output reaches the port unchanged, or null. ParaView puts a
 /// vtkPVPostFilter, which passes points and cells on, behind every filter.
 vtkGodObjectFilter* FindPreparation(vtkAlgorithm* consumer, int port)
@@ -94,6 +108,16 @@ void vtkGodObjectTrace::SetSurfaceConnection(vtkAlgorithmOutput* surface)
 void vtkGodObjectTrace::SetSurfaceData(vtkPolyData* surface)
 {
   this->SetInputData(1, surface);
+}
+
+vtkHapticProperties* vtkGodObjectTrace::GetProperties()
+{
+  return this->Preparation->GetProperties();
+}
+
+vtkMTimeType vtkGodObjectTrace::GetMTime()
+{
+  return std::max(this->Superclass::GetMTime(), this->GetProperties()->GetMTime());
 }
 
 void vtkGodObjectTrace::SetSide(int side)
@@ -147,10 +171,26 @@ vtkGodObjectFilter* vtkGodObjectTrace::PrepareSurface(vtkPolyData* surface)
   {
     return upstream;
   }
-  // Only points and cells: the filter inside must not copy data that nobody will read.
+  // Only points and cells where no property reads more: the filter inside must not copy data that
+  // nobody will look at.
+  bool needsData = this->GetProperties()->GetTextureImage() != nullptr;
+  for (int i = 0; i < vtkHapticProperties::NUMBER_OF_PROPERTIES; ++i)
+  {
+    vtkInformation* const chosen = this->GetInputArrayInformation(i);
+    this->Preparation->GetInputArrayInformation(i)->Copy(chosen);
+    needsData = needsData || chosen->Has(vtkDataObject::FIELD_ASSOCIATION());
+  }
   vtkNew<vtkPolyData> geometry;
-  geometry->CopyStructure(surface);
-  geometry->GetCellData()->AddArray(surface->GetCellGhostArray());
+  if (needsData)
+  {
+    geometry->ShallowCopy(surface);
+  }
+  else
+  {
+    geometry->CopyStructure(surface);
+    geometry->GetCellData()->AddArray(surface->GetCellGhostArray());
+  }
+  this->SurfaceError.clear();
   this->Preparation->SetInputData(geometry);
   this->Preparation->Update();
   return this->Preparation;
@@ -201,6 +241,10 @@ int vtkGodObjectTrace::RequestData(
     vtkErrorMacro(<< "The surface at port 1 cannot be touched. " << this->SurfaceError);
     return 1;
   }
+  if (prepared == this->Preparation && !this->SurfaceError.empty())
+  {
+    vtkErrorMacro(<< "The surface at port 1: " << this->SurfaceError);
+  }
   this->Replay(path, prepared, output);
   return 1;
 }
@@ -217,7 +261,18 @@ void vtkGodObjectTrace::Replay(vtkPolyData* path, vtkGodObjectFilter* prepared, 
   vtkIdTypeArray* originalCells = vtkIdTypeArray::SafeDownCast(
     prepared->GetOutput()->GetCellData()->GetAbstractArray("OriginalCellId"));
 
-  haptics::GodObject godObject({ prepared->GetSurface() });
+  auto stiffnesses = NewArray<vtkDoubleArray>("Stiffness", 1, ticks);
+  auto energies = NewArray<vtkDoubleArray>("Energy", 1, ticks);
+  auto tanks = NewArray<vtkDoubleArray>("EnergyTank", 1, ticks);
+
+  haptics::GodObject godObject(
+    { { prepared->GetSurface(), nullptr, prepared->GetSurfaceProperties() } });
+  haptics::SurfaceForce surfaceForce;
+  haptics::FeelLimits limits;
+  limits.MaximumForce = this->MaximumForce;
+  double energy = 0.0;
+  haptics::Vec3 lastHip{};
+  haptics::Vec3 force{};
   haptics::ForceModel model;
   model.Stiffness = this->Stiffness;
   model.MaximumForce = this->MaximumForce;
@@ -238,14 +293,31 @@ void vtkGodObjectTrace::Replay(vtkPolyData* path, vtkGodObjectFilter* prepared, 
     const haptics::Contact& contact = godObject.Update(hip);
     heldTicks += contact.Status == haptics::UpdateStatus::Overloaded ? 1 : 0;
     refusedTicks += contact.Status == haptics::UpdateStatus::InvalidHip ? 1 : 0;
-    haptics::Vec3 displacement = contact.Displacement;
-    for (double& component : displacement)
+    haptics::FeltContact felt;
+    felt.Position = Scaled(hip, this->WorldToDeviceScale);
+    felt.Displacement = Scaled(contact.Displacement, this->WorldToDeviceScale);
+    energy += i > 0 ? Work(force, lastHip, felt.Position) : 0.0;
+    lastHip = felt.Position;
+    double stiffness = this->Stiffness;
+    if (contact.Felt.IsPlain)
     {
-      component *= this->WorldToDeviceScale;
+      force = model.Force(felt.Displacement);
+    }
+    else
+    {
+      felt.Shaded = Scaled(contact.Shaded, this->WorldToDeviceScale);
+      felt.Period = this->TickPeriod;
+      felt.IsTouching = contact.NumberOfConstraints > 0;
+      felt.Felt = contact.Felt;
+      force = surfaceForce.Update(felt, this->Stiffness, limits);
+      stiffness = felt.IsTouching ? surfaceForce.GetStiffness() : this->Stiffness;
     }
     positions->SetTypedTuple(i, contact.Position.data());
     hips->SetTypedTuple(i, hip.data());
-    forces->SetTypedTuple(i, model.Force(displacement).data());
+    forces->SetTypedTuple(i, force.data());
+    stiffnesses->SetValue(i, stiffness);
+    energies->SetValue(i, energy);
+    tanks->SetValue(i, surfaceForce.GetTank());
     constraints->SetValue(i, contact.NumberOfConstraints);
     cells->SetValue(i,
       contact.NumberOfConstraints > 0
@@ -289,6 +361,9 @@ void vtkGodObjectTrace::Replay(vtkPolyData* path, vtkGodObjectFilter* prepared, 
   data->AddArray(constraints);
   data->AddArray(cells);
   data->AddArray(penetrations);
+  data->AddArray(stiffnesses);
+  data->AddArray(energies);
+  data->AddArray(tanks);
   this->UpdateProgress(1.0);
 }
 
@@ -298,6 +373,7 @@ void vtkGodObjectTrace::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Stiffness: " << this->Stiffness << " N/m\n";
   os << indent << "MaximumForce: " << this->MaximumForce << " N\n";
   os << indent << "WorldToDeviceScale: " << this->WorldToDeviceScale << " m\n";
+  os << indent << "TickPeriod: " << this->TickPeriod << " s\n";
   os << indent << "Preparation:\n";
   this->Preparation->PrintSelf(os, indent.GetNextIndent());
 }

@@ -16,14 +16,19 @@
  * - `ActiveConstraints`: how many planes hold the god-object back, 0 to 3;
  * - `OriginalCellId`: the cell touched, -1 in free space. Of several, the one that pushes most. It
  *   counts the cells of port 1, or of the input of the vtkGodObjectFilter that port 1 comes from;
- * - `Penetration`: distance from HIP to god-object [world unit].
+ * - `Penetration`: distance from HIP to god-object [world unit];
+ * - `Stiffness`: in effect [N/m], of the spring or of the surface where it has properties;
+ * - `Energy`: what the hand has put in so far and not got out [J], with the force held from one HIP
+ *   to the next;
+ * - `EnergyTank`: what a surface with properties may still spend [J]; see haptics::SurfaceForce.
  *
  * The first HIP is taken as free space, whichever side of the surface it lies on. The same inputs
  * give the same output, bit for bit.
  *
  * Errors: a missing or empty path, a path point that is not finite, and all errors of
  * vtkGodObjectFilter give an error that says where and what to do, and an empty output. Not for
- * live devices: see vtkHapticServo.
+ * live devices: see vtkHapticServo. Neither the stiffness nor the damping of a surface is limited
+ * here as a device limits it, but for a damping of 4 N s/m.
  *
  * All methods are for the GUI thread.
  *
@@ -40,6 +45,7 @@
 #include <string> // for std::string
 
 class vtkGodObjectFilter;
+class vtkHapticProperties;
 
 class VTKHAPTICSFILTERS_EXPORT vtkGodObjectTrace : public vtkPolyDataAlgorithm
 {
@@ -85,6 +91,23 @@ public:
 
   ///@{
   /**
+   * @brief Time from one HIP to the next [s], for surfaces with damping or force shading. Default
+   * 0.001; range 1e-6 to 1, other values are clamped.
+   */
+  vtkSetClampMacro(TickPeriod, double, 1e-6, 1.0);
+  vtkGetMacro(TickPeriod, double);
+  ///@}
+
+  /**
+   * @brief How a surface feels that does not come from a vtkGodObjectFilter; one that does has that
+   * filter's properties. Never null; none by default. The arrays that it maps are those of port 1,
+   * chosen by SetInputArrayToProcess() of this class.
+   */
+  vtkHapticProperties* GetProperties();
+  vtkMTimeType GetMTime() override;
+
+  ///@{
+  /**
    * @brief As in vtkGodObjectFilter, for surfaces that do not come from one.
    */
   void SetSide(int side);
@@ -114,6 +137,7 @@ private:
   double Stiffness = 500.0;
   double MaximumForce = 3.3;
   double WorldToDeviceScale = 1.0;
+  double TickPeriod = 0.001;
 };
 
 #endif

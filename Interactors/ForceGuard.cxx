@@ -27,6 +27,8 @@ Vec3 Sum(const Vec3& a, double s, const Vec3& b) noexcept
 constexpr double SpeedSmoothing = 0.005;
 // What desktop devices can damp without shaking [N s/m]: Touch 4, Premium 5, Falcon 20.
 constexpr double LargestPassivityDamping = 4.0;
+// Of the device's damping; what a surface's own takes is missing for its stiffness.
+constexpr double LargestShareOfDamping = 0.5;
 // After a late tick the force may not make up for all of the time that has passed.
 constexpr double LongestStep = 2.0; // nominal periods
 }
@@ -55,16 +57,19 @@ Vec3 ForceGuard::Force(
     this->Limits |= StiffnessLimited;
   }
 
-  Vec3 force = spring.Force(contact.Displacement);
-  if (contact.Touching && Length(contact.Displacement) * spring.Stiffness > model.MaximumForce)
+  const bool isPlain = contact.Felt.IsPlain;
+  Vec3 force = isPlain ? spring.Force(contact.Displacement) : this->Felt(contact, model, settings);
+  if (isPlain && contact.Touching &&
+    Length(contact.Displacement) * spring.Stiffness > model.MaximumForce)
   {
     this->Limits |= ForceClamped;
   }
   force = Sum(force, 1.0, this->Damping(contact, settings));
-  if (settings.PassivityControl)
+  if (settings.PassivityControl || !isPlain)
   {
-    const Vec3 damping = this->Passivity.Update(contact.Position, contact.Period,
-      settings.DeviceDamping, LargestPassivityDamping, contact.Touching);
+    const Vec3 damping =
+      this->Passivity.Update(contact.Position, contact.Period, settings.DeviceDamping,
+        settings.PassivityControl ? LargestPassivityDamping : 0.0, contact.Touching);
     if (damping != Vec3{})
     {
       this->Limits |= PassivityDamped;
@@ -100,6 +105,37 @@ Vec3 ForceGuard::Force(
   force = this->LimitSlew(force, contact.Period, model.MaximumForce, settings);
   this->Passivity.Sent(force, contact.SurfaceStep);
   this->Last = force;
+  return force;
+}
+
+/// The force of surfaces with properties; Stiffness is the plain spring's, and then theirs.
+Vec3 ForceGuard::Felt(
+  const GuardedContact& contact, const ForceModel& model, const SafetySettings& settings) noexcept
+{
+  FeltContact felt;
+  felt.Position = contact.Position;
+  felt.Displacement = contact.Displacement;
+  felt.Shaded = contact.Shaded;
+  felt.Carried = contact.SurfaceStep;
+  felt.Period = contact.Period;
+  felt.IsTouching = contact.Touching;
+  felt.Felt = contact.Felt;
+  FeelLimits limits;
+  limits.MaximumForce = model.MaximumForce;
+  limits.Damping = settings.DeviceDamping > 0.0
+    ? std::max(0.0, LargestShareOfDamping * settings.DeviceDamping - settings.ContactDamping)
+    : LargestPassivityDamping;
+  const double damping = std::min(contact.Felt.Damping, limits.Damping);
+  limits.Stiffness = std::min(model.LargestStiffness, this->Stiffener.Allowed(settings, damping));
+  const Vec3 force = this->Surface.Update(felt, this->Stiffness, limits);
+  if (contact.Touching)
+  {
+    this->Limits &= ~static_cast<std::uint32_t>(StiffnessLimited);
+    this->Limits |= (this->Surface.IsLimited() ? StiffnessLimited : 0u) |
+      (this->Surface.IsHeldBack() ? EnergyHeldBack : 0u) |
+      (this->Surface.IsClamped() ? ForceClamped : 0u);
+    this->Stiffness = this->Surface.GetStiffness();
+  }
   return force;
 }
 

@@ -5,6 +5,7 @@
 #include "PassivityController.h"
 #include "SafetySettings.h"
 #include "StiffnessLimit.h"
+#include "SurfaceForce.h"
 #include "Vec3.h"
 #include "vtkHapticsInteractorsModule.h"
 
@@ -21,11 +22,14 @@ struct GuardedContact
   double Period = 0.0; ///< since the last tick [s]
   /// How far surfaces that move have taken the god-object along since the last tick [m].
   Vec3 SurfaceStep{};
+  Feel Felt{};         ///< of surfaces with properties; plain: none of what follows counts
+  Vec3 Shaded{};       ///< the displacement turned by force shading [m]; only where Felt.IsShaded
 };
 
 /// @brief From a contact to the force that a hand may be given. Servo thread.
 ///
-///     stiffness limit -> spring -> contact damping -> passivity -> clamp -> slew, soft start
+///     stiffness limit -> spring or SurfaceForce -> contact damping -> passivity -> clamp -> slew,
+///     soft start
 ///
 /// A force may shrink at once, but grows and turns no faster than the slew limit:
 ///
@@ -50,15 +54,21 @@ public:
   std::uint32_t GetLimits() const noexcept { return this->Limits; }
   /// The stiffness of the last force [N/m].
   double GetStiffness() const noexcept { return this->Stiffness; }
-  /// The passivity observer's balance [J]; 0 while it is off.
+  /// The passivity observer's balance [J]; 0 while it is off: without passivity control and without
+  /// properties.
   double GetEnergy() const noexcept { return this->Passivity.GetEnergy(); }
+  /// What the surfaces' energy tank holds [J]; 0 without properties.
+  double GetTank() const noexcept { return this->Surface.GetTank(); }
 
 private:
+  Vec3 Felt(const GuardedContact& contact, const ForceModel& model,
+    const SafetySettings& settings) noexcept;
   Vec3 Damping(const GuardedContact& contact, const SafetySettings& settings) noexcept;
   Vec3 LimitSlew(
     const Vec3& force, double period, double maximumForce, const SafetySettings& settings) noexcept;
 
   StiffnessLimit Stiffener;
+  SurfaceForce Surface;
   PassivityController Passivity;
   Vec3 Last{}; // the last force [N]
   Vec3 LastPosition{};

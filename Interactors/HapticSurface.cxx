@@ -122,6 +122,17 @@ Matrix4 HapticSurface::CurrentMatrix()
 bool HapticSurface::Pull(const PullSettings& settings, std::string& error)
 {
   const Snapshot before = this->Touched();
+  const Properties feltBefore = this->Felt();
+  this->Follow(settings, error);
+  if (this->InForce)
+  {
+    this->MakeProperties(error);
+  }
+  return this->Touched() != before || this->Felt() != feltBefore;
+}
+
+void HapticSurface::Follow(const PullSettings& settings, std::string& error)
+{
   const bool wasShown = this->Shown;
   this->IsElsewhere = false;
   this->Shown = !this->Source || (this->Source->GetVisibility() && this->Source->GetPickable());
@@ -131,7 +142,7 @@ bool HapticSurface::Pull(const PullSettings& settings, std::string& error)
   }
   if (!this->Shown)
   {
-    return this->Touched() != before;
+    return;
   }
   std::string connectError;
   if (!this->Connect(connectError))
@@ -141,7 +152,7 @@ bool HapticSurface::Pull(const PullSettings& settings, std::string& error)
       error = connectError;
       this->LastConnectError = connectError;
     }
-    return this->Touched() != before;
+    return;
   }
   this->LastConnectError.clear();
 
@@ -181,7 +192,6 @@ bool HapticSurface::Pull(const PullSettings& settings, std::string& error)
     }
     this->NeedsBaking = false;
   }
-  return this->Touched() != before;
 }
 
 void HapticSurface::FollowGeometry(const PullSettings& settings, std::string& error)
@@ -418,6 +428,21 @@ void HapticSurface::KeepAttributes(vtkPolyData* geometry)
       << dropped << " data arrays of the geometry are shorter than its points or cells, "
       << "and were left out.");
   }
+}
+
+void HapticSurface::MakeProperties(std::string& error)
+{
+  const vtkMTimeType changed = this->Preparation->GetMTime();
+  if (this->FeltBy == this->Kept && this->FeltFor == this->InForce && this->FeltAt == changed)
+  {
+    return;
+  }
+  this->PreparationError.clear();
+  this->Feel = this->Preparation->MakeProperties(this->Kept, this->InForce);
+  this->FeltBy = this->Kept;
+  this->FeltFor = this->InForce;
+  this->FeltAt = changed;
+  error += (error.empty() || this->PreparationError.empty() ? "" : " ") + this->PreparationError;
 }
 
 void HapticSurface::KeepCellIds()

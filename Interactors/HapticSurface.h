@@ -3,6 +3,7 @@
 
 #include "SurfaceBuild.h"
 #include "SurfaceMotion.h"
+#include "SurfaceProperties.h"
 #include "TriangleSurface.h"
 #include "vtkActor.h"
 #include "vtkNew.h"
@@ -54,6 +55,7 @@ class HapticSurface
 {
 public:
   using Snapshot = std::shared_ptr<const TriangleSurface>;
+  using Properties = std::shared_ptr<const SurfaceProperties>;
   using CellIds = std::shared_ptr<const std::vector<vtkIdType>>;
 
   /// A surface that follows its actor: geometry, matrix, visibility, pickability.
@@ -70,8 +72,8 @@ public:
   vtkGodObjectFilter* Filter() const { return this->Preparation; }
 
   /// Takes in what has changed since the last call. True where another snapshot is in force now
-  /// than before, or the surface was shown or hidden. Where the new geometry is no good, `error`
-  /// tells why, once for each change, and the snapshot in force stays.
+  /// than before, or other properties, or the surface was shown or hidden. Where the new geometry
+  /// is no good, `error` tells why, once for each change, and the snapshot in force stays.
   ///
   /// With a worker a changed geometry is built beside; it comes into force at a call after that.
   /// What changes meanwhile is built next, in its newest state.
@@ -92,6 +94,8 @@ public:
 
   /// What is touched; null while the surface is hidden or was never any good.
   Snapshot Touched() const { return this->Shown ? this->InForce : nullptr; }
+  /// How it feels; null while it is hidden or plain.
+  Properties Felt() const { return this->Shown ? this->Feel : nullptr; }
   /// Adds the world's bounds of what is touched, or while that is null of what is being built.
   void AddBounds(vtkBoundingBox& box) const;
   /// The geometry in force, its triangles in the snapshot's order, with its arrays as they were at
@@ -117,6 +121,7 @@ private:
   bool Connect(std::string& error);
   Version Current();
   Matrix4 CurrentMatrix();
+  void Follow(const PullSettings& settings, std::string& error);
   void FollowGeometry(const PullSettings& settings, std::string& error);
   bool FollowMatrix(const PullSettings& settings, std::string& error);
   void RefuseMatrix(std::string& error);
@@ -126,6 +131,7 @@ private:
     std::string& error);
   void TakeBuild(const PullSettings& settings, std::string& error);
   void KeepAttributes(vtkPolyData* geometry);
+  void MakeProperties(std::string& error);
   void KeepCellIds();
   static void KeepError(vtkObject* caller, unsigned long event, void* clientData, void* text);
 
@@ -158,6 +164,10 @@ private:
   bool WasRefused = false; ///< a geometry, for the matrix
   CellIds Ids;
   vtkSmartPointer<vtkPolyData> Kept;
+  Properties Feel;                     ///< for InForce
+  vtkSmartPointer<vtkPolyData> FeltBy; ///< what Feel was made of, and when
+  Snapshot FeltFor;
+  vtkMTimeType FeltAt = 0;
 };
 }
 

@@ -37,7 +37,8 @@ enum SafetyLimit : std::uint32_t
   SoftStarted = 4,      ///< grew faster than a soft start lets it
   StiffnessLimited = 8, ///< the periods and the device's damping allow less than was asked for
   PassivityDamped = 16, ///< energy was taken back
-  PausedForce = 32      ///< paused
+  PausedForce = 32,     ///< paused
+  EnergyHeldBack = 64   ///< a surface is stiffer here than anything has paid for; see SurfaceForce
 };
 }
 

@@ -89,6 +89,11 @@ bool ServoCycle::Tick(double time) noexcept
     guarded.Displacement = settings.DeviceToWorld.VectorToDevice(contact.Displacement);
     guarded.Touching = contact.NumberOfConstraints > 0;
     guarded.SurfaceStep = settings.DeviceToWorld.VectorToDevice(contact.Carried);
+    guarded.Felt = contact.Felt;
+    if (contact.Felt.IsShaded)
+    {
+      guarded.Shaded = settings.DeviceToWorld.VectorToDevice(contact.Shaded);
+    }
     if (!IsFinite(guarded.Displacement))
     {
       this->End(ServoState::InvalidForce);
@@ -146,6 +151,7 @@ void ServoCycle::Record(NumberedGodObject& god, const Vec3& force) noexcept
   this->Now.Generation = god.Generation;
   this->Now.Stiffness = this->Guard.GetStiffness();
   this->Now.Energy = this->Guard.GetEnergy();
+  this->Now.Tank = this->Guard.GetTank();
   this->Now.Limits = this->Guard.GetLimits();
 
   this->Latest.Publish(this->Now);

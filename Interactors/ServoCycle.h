@@ -44,7 +44,8 @@ struct ServoSettings
 
 /// @brief One servo tick: position in, god-object, force out. Knows nothing of time or threads.
 ///
-///     Read -> device to world -> GodObject::Advance, Update -> world to device -> ForceGuard -> Write
+///     Read -> device to world -> GodObject::Advance, Update -> world to device -> ForceGuard ->
+///     Write
 ///
 /// The first group of methods is the GUI thread's, the second the servo thread's; both may run at
 /// once, and none of the second allocates, locks or logs. Any fault asks for zero force in the same

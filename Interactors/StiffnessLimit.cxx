@@ -18,14 +18,15 @@ void StiffnessLimit::Restart(double nominalPeriod) noexcept
   this->Stiffness = -1.0;
 }
 
-double StiffnessLimit::Allowed(const SafetySettings& settings) const noexcept
+double StiffnessLimit::Allowed(const SafetySettings& settings, double surfaceDamping) const noexcept
 {
   if (settings.DeviceDamping <= 0.0)
   {
     return std::numeric_limits<double>::infinity();
   }
   // Damping by the servo takes from what the mechanics have for the spring: b > K T / 2 + |B|.
-  const double damping = std::max(0.0, settings.DeviceDamping - settings.ContactDamping);
+  const double damping =
+    std::max(0.0, settings.DeviceDamping - settings.ContactDamping - surfaceDamping);
   const double halfPeriod = 0.5 * this->MeanSquaredPeriod / this->MeanPeriod;
   return settings.StiffnessMargin * damping / (halfPeriod + settings.DeviceLatency);
 }

@@ -111,7 +111,7 @@ std::vector<TouchedSurface> SurfaceSet::Touched() const
   {
     if (HapticSurface::Snapshot snapshot = surface->Touched())
     {
-      touched.emplace_back(std::move(snapshot), surface->Motion());
+      touched.emplace_back(std::move(snapshot), surface->Motion(), surface->Felt());
       touched.back().Identity = static_cast<std::uint64_t>(surface->Id()) + 1; // 0 is nobody
     }
   }

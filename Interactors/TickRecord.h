@@ -36,6 +36,7 @@ struct TickRecord
 
   double Stiffness = 0.0;   ///< in effect, device frame [N/m]
   double Energy = 0.0;      ///< the passivity observer's balance [J]; 0 while it is off
+  double Tank = 0.0;        ///< what surfaces with properties may still spend [J]
   std::uint32_t Limits = 0; ///< what safety did to the force: bits of SafetyLimit
 };
 }

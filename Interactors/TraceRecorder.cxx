@@ -69,5 +69,8 @@ void TraceRecorder::Write(vtkPolyData* trace) const
   AddScalar<vtkIntArray>(trace, "Surface", this->Ticks, &TraceTick::Surface);
   AddScalar<vtkIdTypeArray>(trace, "OriginalCellId", this->Ticks, &TraceTick::Cell);
   AddScalar<vtkDoubleArray>(trace, "Penetration", this->Ticks, &TraceTick::Penetration);
+  AddScalar<vtkDoubleArray>(trace, "Stiffness", this->Ticks, &TraceTick::Stiffness);
+  AddScalar<vtkDoubleArray>(trace, "Energy", this->Ticks, &TraceTick::Energy);
+  AddScalar<vtkDoubleArray>(trace, "EnergyTank", this->Ticks, &TraceTick::Tank);
 }
 }

@@ -19,11 +19,14 @@ struct TraceTick
   Vec3 GodObject{};
   Vec3 Force{}; ///< on the hand [N], the world's axes
   double Penetration = 0.0;
+  double Stiffness = 0.0; ///< in effect [N/m]
+  double Energy = 0.0;    ///< the passivity observer's balance [J]
+  double Tank = 0.0;      ///< of surfaces with properties [J]
   std::int64_t Cell = -1; ///< of the surface as it was given
   std::int32_t Surface = -1;
   std::int32_t ActiveConstraints = 0;
 };
-static_assert(sizeof(TraceTick) <= 120, "vtkHapticScene documents 120 bytes a tick");
+static_assert(sizeof(TraceTick) <= 144, "vtkHapticScene documents 144 bytes a tick");
 
 /// @brief Keeps ticks up to a limit and makes a polyline of them. GUI thread.
 class TraceRecorder

@@ -216,7 +216,8 @@ void vtkHapticScene::PullRecords()
     {
       const haptics::SceneCell cell = this->Internal->Surfaces.Locate(record);
       recorder.Add({ record.Time, record.Hip, record.GodObject, record.WorldForce,
-        record.Penetration, cell.Cell, cell.Surface, record.NumberOfConstraints });
+        record.Penetration, record.Stiffness, record.Energy, record.Tank, cell.Cell, cell.Surface,
+        record.NumberOfConstraints });
     }
   }
   if (!records.empty())

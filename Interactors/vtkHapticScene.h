@@ -15,7 +15,7 @@
  * is reported through vtkErrorMacro and GetErrorMessage(), once for each change; what was touched
  * before stays in force.
  *
- * Memory: a snapshot of each surface, and while recording 120 bytes a tick up to
+ * Memory: a snapshot of each surface, and while recording 144 bytes a tick up to
  * MaximumTraceTicks.
  *
  * Every method is for the GUI thread.
@@ -44,6 +44,7 @@ class vtkHapticDevice;
 class vtkHapticLandmarks;
 class vtkHapticOverlay;
 class vtkHapticProbe;
+class vtkHapticProperties;
 class vtkHapticServo;
 class vtkMatrix4x4;
 class vtkPolyData;
@@ -129,6 +130,14 @@ public:
   vtkAssembly* GetSurfaceAssembly(int id);
   /** The filter that prepares a surface: side, engine, report. Null where there is no such id. */
   vtkGodObjectFilter* GetSurfaceFilter(int id);
+  /** How a surface feels: friction, stiffness from data and so on. Null where there is no such id. */
+  vtkHapticProperties* GetSurfaceProperties(int id);
+  /**
+   * Chooses the data array of the surface that a property comes from (a number of
+   * vtkHapticProperties::PropertyType): vtkDataObject::FIELD_ASSOCIATION_POINTS or _CELLS, and its
+   * name; none where that is null or empty. False where there is no such id.
+   */
+  bool SetSurfacePropertyArray(int id, int property, int association, const char* name);
   /** Whether a surface can be felt now: shown, and its geometry was good at least once. */
   bool IsSurfaceTouchable(int id);
 
@@ -290,7 +299,7 @@ public:
   ///@}
 
   ///@{
-  /** Ticks that a trace holds at most. Default 600,000 (ten minutes at 1 kHz, 72 MB); >= 1. */
+  /** Ticks that a trace holds at most. Default 600,000 (ten minutes at 1 kHz, 86 MB); >= 1. */
   vtkSetClampMacro(MaximumTraceTicks, vtkIdType, 1, VTK_ID_MAX);
   vtkGetMacro(MaximumTraceTicks, vtkIdType);
   ///@}
@@ -298,7 +307,8 @@ public:
   /**
    * The trace so far: a polyline of the god-object, one point a tick, world frame, with the point
    * arrays Time [s], HapticInterfacePoint [world unit], Force [N, world axes], ActiveConstraints,
-   * Surface (id, -1 in free space), OriginalCellId (-1 in free space), Penetration [world unit].
+   * Surface (id, -1 in free space), OriginalCellId (-1 in free space), Penetration [world unit],
+   * Stiffness (in effect [N/m]), Energy (vtkHapticServo::GetObservedEnergy() [J]), EnergyTank [J].
    * Made anew at each call; empty where nothing was recorded. Ticks that came faster than Update()
    * drained them are missing from it: see GetNumberOfLostTicks().
    */

@@ -163,6 +163,23 @@ vtkGodObjectFilter* vtkHapticScene::GetSurfaceFilter(int id)
   return surface ? surface->Filter() : nullptr;
 }
 
+vtkHapticProperties* vtkHapticScene::GetSurfaceProperties(int id)
+{
+  vtkGodObjectFilter* filter = this->GetSurfaceFilter(id);
+  return filter ? filter->GetProperties() : nullptr;
+}
+
+bool vtkHapticScene::SetSurfacePropertyArray(
+  int id, int property, int association, const char* name)
+{
+  vtkGodObjectFilter* filter = this->GetSurfaceFilter(id);
+  if (filter)
+  {
+    filter->SetInputArrayToProcess(property, 0, 0, association, name ? name : "");
+  }
+  return filter != nullptr;
+}
+
 bool vtkHapticScene::IsSurfaceTouchable(int id)
 {
   for (const haptics::HapticAssembly& assembly : this->Internal->Assemblies)

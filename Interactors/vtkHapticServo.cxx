@@ -198,6 +198,8 @@ void vtkHapticServo::Configure()
   // The servo itself limits the stiffness by what its periods turn out to be.
   this->Internal->Settings.Force.Stiffness =
     this->Device ? std::min(this->Stiffness, this->Device->GetMaximumStiffness()) : this->Stiffness;
+  this->Internal->Settings.Force.LargestStiffness =
+    this->Device ? this->Device->GetMaximumStiffness() : VTK_DOUBLE_MAX;
   this->Internal->Settings.Force.MaximumForce = this->GetEffectiveMaximumForce();
   this->Internal->Cycle.Configure(this->Internal->Settings);
 }

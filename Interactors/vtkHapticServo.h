@@ -227,7 +227,11 @@ public:
   double GetPenetration();                          ///< of the HIP [world unit]
   int GetNumberOfConstraints();                     ///< 0 in free space, to 3
   double GetTime();                                 ///< [s] since the start
-  double GetObservedEnergy(); ///< the passivity observer's balance [J]; 0 while it is off
+  /// The passivity observer's balance [J]: what the hand and the device's damping have put in and
+  /// not got out; 0 without passivity control and without properties.
+  double GetObservedEnergy();
+  /// What surfaces with properties may still spend [J]; see haptics::SurfaceForce.
+  double GetEnergyTank();
   ///@}
 
   ///@{

@@ -154,6 +154,11 @@ double vtkHapticServo::GetObservedEnergy()
   return this->GetLatestRecord().Energy;
 }
 
+double vtkHapticServo::GetEnergyTank()
+{
+  return this->GetLatestRecord().Tank;
+}
+
 unsigned int vtkHapticServo::GetForceLimits()
 {
   return this->GetLatestRecord().Limits;
@@ -169,7 +174,8 @@ std::string vtkHapticServo::DescribeForceLimits()
   static const Name names[] = { { haptics::ForceClamped, "largest force" },
     { haptics::ForceSlewed, "slew limit" }, { haptics::SoftStarted, "soft start" },
     { haptics::StiffnessLimited, "stiffness limit" },
-    { haptics::PassivityDamped, "passivity control" }, { haptics::PausedForce, "paused" } };
+    { haptics::PassivityDamped, "passivity control" }, { haptics::PausedForce, "paused" },
+    { haptics::EnergyHeldBack, "energy tank" } };
   std::string text;
   for (const Name& name : names)
   {
@@ -209,6 +215,7 @@ void vtkHapticServo::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfConstraints: " << tick.NumberOfConstraints << "\n";
   os << indent << "CurrentStiffness: " << tick.Stiffness << " N/m\n";
   os << indent << "ObservedEnergy: " << tick.Energy << " J\n";
+  os << indent << "EnergyTank: " << tick.Tank << " J\n";
   os << indent << "ForceLimits: " << this->DescribeForceLimits() << "\n";
   os << indent << "NumberOfHalts: " << this->GetNumberOfHalts() << "\n";
   os << indent << "NumberOfTicks: " << report.Ticks << "\n";

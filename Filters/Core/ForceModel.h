@@ -4,6 +4,8 @@
 #include "Vec3.h"
 #include "vtkHapticsCoreModule.h"
 
+#include <limits>
+
 namespace haptics
 {
 /// @brief From the god-object to the force in the hand: a spring, limited to what the device can
@@ -15,6 +17,8 @@ struct VTKHAPTICSCORE_EXPORT ForceModel
 {
   double Stiffness = 500.0;  ///< [N/m], >= 0
   double MaximumForce = 3.3; ///< [N], >= 0; a longer force is shortened, its direction kept
+  /// The device's own limit [N/m], for surfaces with a stiffness of their own; not for this one.
+  double LargestStiffness = std::numeric_limits<double>::infinity();
 
   /// Force [N] for a displacement of the god-object from the HIP [m]; zero where that is not
   /// finite.

@@ -18,7 +18,7 @@ struct FeltContact
   Vec3 Carried{};      ///< by surfaces that moved, since the last tick [m]
   double Period = 0.0; ///< since the last tick [s]
   bool IsTouching = false;
-  haptics::Feel Felt;
+  haptics::Feel Felt{};
 };
 
 /// What device and servo allow.
@@ -67,6 +67,8 @@ public:
   double GetStiffness() const noexcept { return this->Stiffness; }
   /// Whether the last force had less stiffness than the surface, because of the limits.
   bool IsLimited() const noexcept { return this->Limited; }
+  /// Whether it was cut off at the largest force.
+  bool IsClamped() const noexcept { return this->Clamped; }
   /// Whether it had less because of the tank.
   bool IsHeldBack() const noexcept { return this->HeldBack; }
   /// What the tank holds [J]; negative: a debt.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace haptics
@@ -151,6 +152,28 @@ std::shared_ptr<const SurfaceProperties> SurfaceProperties::Build(
     properties->Normals = ShadingNormals(surface, properties->Given.FeatureAngle);
   }
   return properties;
+}
+
+bool SurfaceProperties::HasSameArrays(const PropertyValues& values) const
+{
+  // Bit for bit, as NaN counts.
+  const auto isSame = [](const auto& a, const auto& b)
+  {
+    return a.size() == b.size() &&
+      (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0);
+  };
+  for (int i = 0; i < NumberOfProperties; ++i)
+  {
+    const PropertyField& a = this->Given.Fields[i];
+    const PropertyField& b = values.Fields[i];
+    if (a.IsPerTriangle != b.IsPerTriangle || !isSame(a.Values, b.Values))
+    {
+      return false;
+    }
+  }
+  const bool hasImage = this->Given.Image != nullptr;
+  return hasImage == (values.Image != nullptr) &&
+    (!hasImage || isSame(this->Given.Image->Coordinates, values.Image->Coordinates));
 }
 
 double SurfaceProperties::Value(Property property, const Triangle& corners, std::int32_t triangle,

@@ -74,6 +74,10 @@ public:
   static std::shared_ptr<const SurfaceProperties> Build(
     PropertyValues values, const TriangleSurface& surface, std::string& error);
 
+  /// Whether these were built from the same values at points, triangles and texture coordinates;
+  /// constants, profile and picture are not looked at.
+  bool HasSameArrays(const PropertyValues& values) const;
+
   using Corners = std::array<double, 3>; ///< weights of a triangle's corners, sum 1
 
   /// The properties at a place of a triangle of the surface, as if it were all of the contact.

@@ -11,6 +11,7 @@ haptics_add_gtest(TestHapticScene
   TestHapticSceneBadInput.cxx
   TestHapticSceneWorkspace.cxx
   TestMovingActors.cxx
+  TestSceneProperties.cxx
   TestSceneEvents.cxx
   LIBRARIES Haptics::Devices Haptics::Filters Haptics::Interactors VTK::FiltersCore
             VTK::FiltersSources VTK::RenderingOpenGL2)

@@ -1,0 +1,168 @@
+// How surfaces of a scene feel, from their data arrays to the force in the hand.
+#include "SceneTestTools.h"
+
+#include "vtkActor.h"
+#include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkHapticProperties.h"
+#include "vtkPointData.h"
+#include "vtkPolyDataMapper.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+namespace
+{
+constexpr int AtPoints = vtkDataObject::FIELD_ASSOCIATION_POINTS;
+
+/// A table in z = 0 with "stiff" at its points: 200 at the left, 600 at the right.
+vtkSmartPointer<vtkPolyData> MakeStiffTable()
+{
+  vtkSmartPointer<vtkPolyData> table = MakeTable(0.0);
+  vtkNew<vtkDoubleArray> stiff;
+  stiff->SetName("stiff");
+  for (vtkIdType i = 0; i < table->GetNumberOfPoints(); ++i)
+  {
+    stiff->InsertNextValue(400.0 + 2000.0 * table->GetPoint(i)[0]);
+  }
+  table->GetPointData()->AddArray(stiff);
+  return table;
+}
+
+void PressAt(LedHand& hand, double x, double y, double height)
+{
+  hand.Device->SetPosition(x, y, height);
+  hand.Scene->Step(1);
+}
+}
+
+TEST(SceneProperties, StiffnessComesFromAnArray)
+{
+  LedHand hand;
+  const int table = hand.Scene->AddSurface(MakeStiffTable());
+  EXPECT_FALSE(hand.Scene->SetSurfacePropertyArray(77, 0, AtPoints, "stiff"));
+  EXPECT_EQ(hand.Scene->GetSurfaceProperties(77), nullptr);
+  EXPECT_TRUE(
+    hand.Scene->SetSurfacePropertyArray(table, vtkHapticProperties::STIFFNESS, AtPoints, "stiff"));
+  for (const double x : { -0.05, 0.0, 0.05 })
+  {
+    PressAt(hand, x, 0.02, 0.001);
+    PressAt(hand, x, 0.02, -0.002);
+    EXPECT_NEAR(hand.Scene->GetForce()[2], (400.0 + 2000.0 * x) * 0.002, 1e-3) << x;
+    EXPECT_NEAR(hand.Scene->GetServo()->GetCurrentStiffness(), 400.0 + 2000.0 * x, 1e-2);
+  }
+}
+
+TEST(SceneProperties, StiffnessIsNotMoreThanTheDeviceCanHold)
+{
+  LedHand hand;
+  const int table = hand.Scene->AddSurface(MakeTable(0.0));
+  hand.Scene->GetSurfaceProperties(table)->SetStiffness(1e5);
+  hand.Scene->SetStiffness(1e5);
+  const double most = hand.Scene->GetServo()->GetEffectiveStiffness();
+  ASSERT_LT(most, 1e4);
+  hand.MoveTo(0.001);
+  hand.MoveTo(-0.001);
+  EXPECT_NEAR(hand.Scene->GetForce()[2], most * 0.001, most * Clearance);
+  EXPECT_NE(
+    hand.Scene->GetServo()->DescribeForceLimits().find("stiffness limit"), std::string::npos);
+  // What a surface damps is missing for its stiffness; it may take half of the device's own.
+  hand.Scene->GetSurfaceProperties(table)->SetDamping(1e3);
+  hand.MoveTo(0.001);
+  hand.MoveTo(-0.001);
+  EXPECT_NEAR(hand.Scene->GetServo()->GetCurrentStiffness(), 0.5 * most, 0.01 * most);
+}
+
+TEST(SceneProperties, AnActorMayBeMirroredAndScaled)
+{
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(MakeStiffTable());
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->SetScale(-2.0, 2.0, 2.0);
+  LedHand hand;
+  const int table = hand.Scene->AddSurface(actor);
+  hand.Scene->SetSurfacePropertyArray(table, vtkHapticProperties::STIFFNESS, AtPoints, "stiff");
+  hand.Scene->GetSurfaceProperties(table)->ForceShadingOn();
+  for (const double x : { -0.1, 0.0, 0.1 })
+  {
+    PressAt(hand, x, 0.02, 0.001);
+    PressAt(hand, x, 0.02, -0.002);
+    EXPECT_NEAR(hand.Scene->GetForce()[2], (400.0 - 1000.0 * x) * 0.002, 2e-3) << x;
+    EXPECT_NEAR(hand.Scene->GetForce()[0], 0.0, 1e-6);
+  }
+}
+
+TEST(SceneProperties, FrictionDragsAndIsToldInTheTrace)
+{
+  LedHand hand;
+  const int table = hand.Scene->AddSurface(MakeTable(0.0));
+  hand.Scene->SetStiffness(400.0);
+  hand.Scene->GetSurfaceProperties(table)->SetStaticFriction(0.5);
+  hand.Scene->GetSurfaceProperties(table)->SetDynamicFriction(0.3);
+  PressAt(hand, 0.01, 0.02, 0.001);
+  hand.Scene->StartRecording();
+  for (int tick = 0; tick <= 50; ++tick)
+  {
+    PressAt(hand, 0.01, 0.02, 0.001 - 1e-4 * tick);
+  }
+  for (int tick = 0; tick < 300; ++tick)
+  {
+    PressAt(hand, 0.01 + 1e-4 * tick, 0.02, -0.004);
+  }
+  const double* force = hand.Scene->GetForce();
+  EXPECT_NEAR(force[2], 1.6, 1e-3);
+  EXPECT_NEAR(force[0], -0.3 * 1.6, 1e-3);
+  vtkPointData* data = hand.Scene->GetTrace()->GetPointData();
+  vtkDataArray* energy = data->GetArray("Energy");
+  const vtkIdType last = energy->GetNumberOfTuples() - 1;
+  // 0.48 N over 28 mm, and the spring's 3.2 mJ with what drags it: all the hand's. The device's
+  // own damping counts with what it has taken.
+  const double least = 0.48 * 0.028 + 0.5 * 400.0 * (0.004 * 0.004 * (1.0 + 0.09));
+  EXPECT_GT(energy->GetComponent(last, 0), 0.95 * least);
+  EXPECT_EQ(energy->GetComponent(last, 0), hand.Scene->GetServo()->GetObservedEnergy());
+  EXPECT_NEAR(data->GetArray("EnergyTank")->GetComponent(last, 0), 0.48 * 0.028, 1e-3);
+  EXPECT_EQ(
+    data->GetArray("EnergyTank")->GetComponent(last, 0), hand.Scene->GetServo()->GetEnergyTank());
+  EXPECT_NEAR(data->GetArray("Stiffness")->GetComponent(last, 0), 400.0, 1e-9);
+}
+
+// With the safety as it comes, in the middle of a stroke.
+TEST(SceneProperties, NothingJumpsWhereAnArrayVanishes)
+{
+  vtkNew<vtkSimulatedHapticDevice> device;
+  vtkNew<vtkHapticScene> scene;
+  scene->SetDevice(device);
+  vtkSmartPointer<vtkPolyData> table = MakeStiffTable();
+  const int id = scene->AddSurface(table);
+  scene->SetSurfacePropertyArray(id, vtkHapticProperties::STIFFNESS, AtPoints, "stiff");
+  scene->GetSurfaceProperties(id)->SetStaticFriction(0.6);
+  scene->GetSurfaceProperties(id)->SetDynamicFriction(0.5);
+  scene->GetSurfaceProperties(id)->SetStiffness(600.0);
+  EventCounter errors(scene, vtkHapticScene::SurfaceErrorEvent);
+  EventCounter quiet(scene, vtkCommand::ErrorEvent);
+  double last[3] = { 0.0, 0.0, 0.0 };
+  for (int tick = 0; tick < 1000; ++tick)
+  {
+    if (tick == 500)
+    {
+      table->GetPointData()->RemoveArray("stiff");
+      table->Modified();
+    }
+    device->SetPosition(-0.05 + 1e-5 * tick, 0.02, std::max(0.005 - 1e-4 * tick, -0.004));
+    scene->Step(1);
+    double now[3];
+    scene->GetForce(now);
+    const double step = std::hypot(now[0] - last[0], now[1] - last[1], now[2] - last[2]);
+    // Pressing at 0.1 m/s makes 0.06 N a tick, a slip of friction 0.12 N; then it only slides.
+    ASSERT_LE(step, tick < 450 ? 0.2 : 0.05) << "tick " << tick;
+    std::copy_n(now, 3, last);
+  }
+  EXPECT_EQ(errors.Count, 1);
+  EXPECT_NE(std::string(scene->GetErrorMessage()).find("no array stiff"), std::string::npos)
+    << scene->GetErrorMessage();
+  // Friction has paid for the rise to the constant by now.
+  EXPECT_NEAR(last[2], 0.004 * 600.0, 0.02);
+}
