@@ -3,6 +3,8 @@
 // Times of single ticks are taken with the clock inside the loop, as their high quantiles are what
 // a servo needs: the counters mean_us, p50_us, p99_us and p999_us. The clock adds about 0.03 us.
 #include "AnalyticSurfaces.h"
+#include "FeelTools.h"
+#include "ForceModel.h"
 #include "GodObject.h"
 
 #include "vtkCellArray.h"
@@ -198,6 +200,83 @@ void SlideOverFile(benchmark::State& state, const std::string& name)
   Stroke(state, surface, { 1.2 * (hips[0] - surface->Origin()) + surface->Origin() }, hips);
 }
 
+/// What a surface's properties cost: a slide with everything from the HIP to the force, on a sphere
+/// of 20,480 triangles. "plain" has none, and no property's code is run for it.
+void SlideFelt(benchmark::State& state, const PropertyValues& values, bool isPlain)
+{
+  const SurfacePointer surface = Sphere(5, false, EngineKind::Embree);
+  const TouchedSurface touched = isPlain ? TouchedSurface(surface) : Touchable(surface, values);
+  const auto hips = Circle(0.98);
+  std::vector<double> means;
+  for (auto _ : state)
+  {
+    GodObject god({ touched });
+    god.Update(1.2 * hips[0]);
+    SurfaceForce felt;
+    ForceModel spring;
+    FeltContact tick;
+    tick.Period = 1e-3;
+    const auto before = std::chrono::steady_clock::now();
+    for (const Vec3& hip : hips)
+    {
+      const Contact& contact = god.Update(hip);
+      if (contact.Felt.IsPlain)
+      {
+        benchmark::DoNotOptimize(spring.Force(contact.Displacement));
+        continue;
+      }
+      tick.Position = hip;
+      tick.Displacement = contact.Displacement;
+      tick.Shaded = contact.Shaded;
+      tick.IsTouching = contact.NumberOfConstraints > 0;
+      tick.Felt = contact.Felt;
+      benchmark::DoNotOptimize(felt.Update(tick, 500.0, {}));
+    }
+    const std::chrono::duration<double, std::micro> time =
+      std::chrono::steady_clock::now() - before;
+    means.push_back(time.count() / Ticks);
+  }
+  ClearCounters(state);
+  state.counters["triangles"] = static_cast<double>(surface->Triangles().size());
+  state.counters["mean_us"] = means.front();
+  state.counters["contact"] = 1.0;
+}
+
+PropertyValues Varying(Property property, double least, double most)
+{
+  PropertyValues values;
+  const SurfacePointer surface = Sphere(5, false, EngineKind::Embree);
+  values[property] = AtPoints(*surface,
+    [=](const Vec3& p) { return least + (most - least) * (0.5 + 0.5 * std::sin(20.0 * p[0])); });
+  return values;
+}
+
+PropertyValues Everything()
+{
+  PropertyValues values = Varying(Property::Stiffness, 200.0, 800.0);
+  values[Property::Damping].Constant = 1.0;
+  values[Property::StaticFriction].Constant = 0.4;
+  values[Property::DynamicFriction] = Varying(Property::DynamicFriction, 0.1, 0.3).Fields[3];
+  values[Property::Texture] = Varying(Property::Texture, -0.2, 0.2).Fields[4];
+  values.Shading = true;
+  return values;
+}
+
+PropertyValues Shaded()
+{
+  PropertyValues values;
+  values.Shading = true;
+  return values;
+}
+
+PropertyValues Button()
+{
+  PropertyValues values;
+  std::string error;
+  values.Profile = ForceProfile::Build({ 0.0, 1.0, 2.0, 1.0, 3.0 }, 0.01, error);
+  return values;
+}
+
 /// From Update() of the filter on plain triangles to a surface that can be touched.
 void MakeTouchable(benchmark::State& state)
 {
@@ -240,6 +319,16 @@ BENCHMARK(SlideOutside)->HAPTICS_LEVELS->HAPTICS_REPEATED;
 BENCHMARK(SlideAcrossFacets)->HAPTICS_LEVELS->HAPTICS_REPEATED;
 BENCHMARK(SlideInside)->HAPTICS_LEVELS->HAPTICS_REPEATED;
 BENCHMARK(FreeSpace)->HAPTICS_LEVELS->HAPTICS_REPEATED;
+BENCHMARK_CAPTURE(SlideFelt, plain, PropertyValues(), true)->HAPTICS_REPEATED;
+BENCHMARK_CAPTURE(SlideFelt, stiffness, Varying(Property::Stiffness, 200, 800), false)
+  ->HAPTICS_REPEATED;
+BENCHMARK_CAPTURE(SlideFelt, damping, Everywhere(-1, 1.0, 0, 0, 0), false)->HAPTICS_REPEATED;
+BENCHMARK_CAPTURE(SlideFelt, friction, Rough(0.4, 0.3), false)->HAPTICS_REPEATED;
+BENCHMARK_CAPTURE(SlideFelt, texture, Varying(Property::Texture, -0.2, 0.2), false)
+  ->HAPTICS_REPEATED;
+BENCHMARK_CAPTURE(SlideFelt, shading, Shaded(), false)->HAPTICS_REPEATED;
+BENCHMARK_CAPTURE(SlideFelt, button, Button(), false)->HAPTICS_REPEATED;
+BENCHMARK_CAPTURE(SlideFelt, everything, Everything(), false)->HAPTICS_REPEATED;
 BENCHMARK_CAPTURE(SlideOverFile, frog, "frog")->HAPTICS_REPEATED;
 BENCHMARK_CAPTURE(SlideWith, BruteForce, EngineKind::BruteForce)
   ->DenseRange(0, 5)
