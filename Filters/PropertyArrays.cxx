@@ -57,7 +57,11 @@ std::string MapArray(vtkDataArray* array, const PropertyMapping& mapping, double
     {
       return value;
     }
-    const double share = range[1] > range[0] ? (value - range[0]) / (range[1] - range[0]) : 0.5;
+    double share = range[1] > range[0] ? (value - range[0]) / (range[1] - range[0]) : 0.5;
+    if (mapping.Curve)
+    {
+      share = std::clamp(mapping.Curve->GetValue(share), 0.0, 1.0);
+    }
     return (*mapping.Range)[0] + share * ((*mapping.Range)[1] - (*mapping.Range)[0]);
   };
 

@@ -18,6 +18,7 @@ namespace haptics
 struct PropertyMapping
 {
   vtkPiecewiseFunction* Function = nullptr;   ///< goes first
+  vtkPiecewiseFunction* Curve = nullptr;      ///< through the range, both from 0 to 1
   std::optional<std::array<double, 2>> Range; ///< of the property, over the array's own
   double Lowest = 0.0;                        ///< what the property may be
   double Highest = 0.0;

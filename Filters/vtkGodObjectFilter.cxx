@@ -14,6 +14,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
 #include "vtkStringArray.h"
 
 #include <algorithm>
@@ -24,7 +25,7 @@ class vtkGodObjectFilter::vtkInternals
 {
 public:
   std::shared_ptr<const haptics::SurfacePreparation> Built; // null, or with a surface
-  vtkNew<vtkHapticProperties> Properties;
+  vtkSmartPointer<vtkHapticProperties> Properties = vtkSmartPointer<vtkHapticProperties>::New();
 
   // The last properties made, and what of.
   std::shared_ptr<const haptics::SurfaceProperties> Made;
@@ -48,6 +49,24 @@ int vtkGodObjectFilter::FillInputPortInformation(int port, vtkInformation* info)
   // there.
   info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
   return this->Superclass::FillInputPortInformation(port, info);
+}
+
+void vtkGodObjectFilter::SetProperties(vtkHapticProperties* properties)
+{
+  if (!properties)
+  {
+    this->Internals->Properties = vtkSmartPointer<vtkHapticProperties>::New();
+  }
+  else if (this->Internals->Properties == properties)
+  {
+    return;
+  }
+  else
+  {
+    this->Internals->Properties = properties;
+  }
+  this->Internals->MadeFor.reset();
+  this->Modified();
 }
 
 vtkHapticProperties* vtkGodObjectFilter::GetProperties()

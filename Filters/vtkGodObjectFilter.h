@@ -130,12 +130,15 @@ public:
   vtkGetMacro(CrackWidth, double);
   ///@}
 
+  ///@{
   /**
-   * @brief How the surface feels. Never null; none by default. The arrays that it maps are chosen
-   * by SetInputArrayToProcess(), with the indices of vtkHapticProperties::PropertyType. A change
-   * does not build the surface anew.
+   * @brief How the surface feels. Never null; none by default; null sets a new one. The arrays that
+   * it maps are chosen by SetInputArrayToProcess(), with the indices of
+   * vtkHapticProperties::PropertyType. A change does not build the surface anew.
    */
+  void SetProperties(vtkHapticProperties* properties);
   vtkHapticProperties* GetProperties();
+  ///@}
   vtkMTimeType GetMTime() override;
 
 #ifndef __VTK_WRAP__

@@ -49,6 +49,7 @@ struct vtkHapticProperties::Source
   double Constant = 0.0;
   vtkSmartPointer<vtkPiecewiseFunction> Function;
   std::optional<std::array<double, 2>> Range;
+  vtkSmartPointer<vtkPiecewiseFunction> Curve;
 };
 
 vtkStandardNewMacro(vtkHapticProperties);
@@ -161,6 +162,20 @@ void vtkHapticProperties::ClearRange(int property)
   }
 }
 
+void vtkHapticProperties::SetCurve(int property, vtkPiecewiseFunction* curve)
+{
+  if (this->IsProperty(property) && (*this->Sources)[property].Curve != curve)
+  {
+    (*this->Sources)[property].Curve = curve;
+    this->Modified();
+  }
+}
+
+vtkPiecewiseFunction* vtkHapticProperties::GetCurve(int property)
+{
+  return this->IsProperty(property) ? (*this->Sources)[property].Curve.Get() : nullptr;
+}
+
 void vtkHapticProperties::SetForceProfile(vtkPiecewiseFunction* profile)
 {
   if (this->ForceProfile != profile)
@@ -215,6 +230,7 @@ vtkMTimeType vtkHapticProperties::GetMTime()
   for (const Source& source : *this->Sources)
   {
     include(source.Function);
+    include(source.Curve);
   }
   include(this->ForceProfile);
   include(this->TextureImage);
@@ -240,8 +256,8 @@ std::shared_ptr<const haptics::SurfaceProperties> vtkHapticProperties::Build(vtk
     if (chosen.Array)
     {
       field.IsPerTriangle = chosen.IsPerCell;
-      const haptics::PropertyMapping mapping{ source.Function, source.Range, Facts[i].Lowest,
-        Facts[i].Highest, i == TEXTURE };
+      const haptics::PropertyMapping mapping{ source.Function, source.Curve, source.Range,
+        Facts[i].Lowest, Facts[i].Highest, i == TEXTURE };
       const std::size_t wanted =
         chosen.IsPerCell ? surface.Triangles().size() : surface.Points().size();
       const std::string problem = haptics::MapArray(

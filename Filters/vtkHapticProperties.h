@@ -15,7 +15,7 @@
  * becomes the property's
  * - by a vtkPiecewiseFunction, where one is set: from the array's unit to the property's;
  * - else by a range, where one is set: the array's least value becomes the range's first, its
- *   greatest the second;
+ *   greatest the second, the others along a straight line or a curve;
  * - else as it is.
  *
  * Errors: an array that is not there, has another size or more than one component is reported, and
@@ -86,6 +86,8 @@ public:
   double GetStiffness() { return this->GetConstant(STIFFNESS); }
   void SetDamping(double damping) { this->SetConstant(DAMPING, damping); }
   double GetDamping() { return this->GetConstant(DAMPING); }
+  void SetTexture(double texture) { this->SetConstant(TEXTURE, texture); }
+  double GetTexture() { return this->GetConstant(TEXTURE); }
   ///@}
   ///@{
   /**
@@ -124,6 +126,24 @@ public:
   bool HasRange(int property);
   void GetRange(int property, double range[2]);
   void ClearRange(int property);
+  void SetStiffnessRange(double a, double b) { this->SetRange(STIFFNESS, a, b); }
+  void SetDampingRange(double a, double b) { this->SetRange(DAMPING, a, b); }
+  void SetStaticFrictionRange(double a, double b) { this->SetRange(STATIC_FRICTION, a, b); }
+  void SetDynamicFrictionRange(double a, double b) { this->SetRange(DYNAMIC_FRICTION, a, b); }
+  void SetTextureRange(double a, double b) { this->SetRange(TEXTURE, a, b); }
+  ///@}
+  ///@{
+  /**
+   * @brief How an array goes through its range: from 0 (its least value) ... 1 (its greatest) to 0
+   * ... 1 of the range. Null, the default, is a straight line. Without a range it is not looked at.
+   */
+  void SetCurve(int property, vtkPiecewiseFunction* curve);
+  vtkPiecewiseFunction* GetCurve(int property);
+  void SetStiffnessCurve(vtkPiecewiseFunction* c) { this->SetCurve(STIFFNESS, c); }
+  void SetDampingCurve(vtkPiecewiseFunction* c) { this->SetCurve(DAMPING, c); }
+  void SetStaticFrictionCurve(vtkPiecewiseFunction* c) { this->SetCurve(STATIC_FRICTION, c); }
+  void SetDynamicFrictionCurve(vtkPiecewiseFunction* c) { this->SetCurve(DYNAMIC_FRICTION, c); }
+  void SetTextureCurve(vtkPiecewiseFunction* c) { this->SetCurve(TEXTURE, c); }
   ///@}
 
   ///@{

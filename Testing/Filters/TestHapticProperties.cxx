@@ -120,6 +120,12 @@ TEST(HapticProperties, AnArrayIsMappedByFunctionOrRangeOrNotAtAll)
   function->AddPoint(0.0, 100.0);
   function->AddPoint(500.0, 200.0);
   function->AddPoint(1000.0, 900.0);
+  vtkNew<vtkPiecewiseFunction> curve;
+  curve->AddPoint(0.0, 0.0);
+  curve->AddPoint(0.8, 0.2);
+  curve->AddPoint(1.0, 1.0);
+  properties->SetStiffnessCurve(curve);
+  EXPECT_NEAR(PressOn(filter, 0.021, 0.007, 0.004), (700.0 - 500.0 * 0.25 * 0.71) * 0.004, 1e-5);
   properties->SetStiffnessFunction(function);
   // Values are mapped at the points, and interpolated between them.
   EXPECT_NEAR(PressOn(filter, 0.031, 0.007, 0.004), (200.0 + 1.4 * 310.0) * 0.004, 1e-5);

@@ -96,6 +96,28 @@ class TestFilters(unittest.TestCase):
             active = point_arrays(output)["ActiveConstraints"].GetValue(100)
             self.assertEqual(min(active, 1), constraints, side)
 
+    def test_an_array_becomes_a_stiffness(self):
+        plane = self.make("Plane", XResolution=10, YResolution=10, Origin=[-0.05, -0.05, 0.0],
+                          Point1=[0.05, -0.05, 0.0], Point2=[-0.05, 0.05, 0.0])
+        data = self.make("Calculator", Input=plane, ResultArrayName="data", Function="coordsX")
+        surface = self.make("GodObjectSurface", Input=data)
+        path = self.make("Line", Point1=[0.031, 0.007, 0.001], Point2=[0.031, 0.007, -0.003],
+                         Resolution=40)
+        trace = self.make("GodObjectTrace", Path=path, Surface=surface)
+
+        def force():
+            forces = servermanager.Fetch(trace).GetPointData().GetArray("Force")
+            return forces.GetComponent(40, 2)
+
+        self.assertAlmostEqual(force(), 500.0 * 0.003, 5)
+        surface.StiffnessArray = ["POINTS", "data"]  # 200 to 800 N/m, by default
+        self.assertAlmostEqual(force(), (500.0 + 6000.0 * 0.031) * 0.003, 4)
+        surface.Properties.StiffnessRange = [600.0, 100.0]
+        self.assertAlmostEqual(force(), (350.0 - 5000.0 * 0.031) * 0.003, 4)
+        surface.StiffnessArray = ["POINTS", ""]
+        surface.Properties.Stiffness = 250.0
+        self.assertAlmostEqual(force(), 250.0 * 0.003, 5)
+
     def test_a_trace_takes_any_surface(self):
         path = self.make("Line", Point1=[0, 0, 1.5], Point2=[0, 0, 0.9], Resolution=100)
         sphere = self.make("Sphere", Radius=1.0, ThetaResolution=64, PhiResolution=64)
