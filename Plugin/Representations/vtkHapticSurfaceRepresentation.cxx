@@ -6,6 +6,8 @@
 #include "vtkCompositeDataSet.h"
 #include "vtkDataAssembly.h"
 #include "vtkDataAssemblyUtilities.h"
+#include "vtkGodObjectFilter.h"
+#include "vtkHapticProperties.h"
 #include "vtkInformation.h"
 #include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
@@ -166,6 +168,40 @@ vtkActor* vtkHapticSurfaceRepresentation::GetTouchedActor()
     this->Touched->SetPickable(drawn->GetPickable());
   }
   return this->Touched;
+}
+
+void vtkHapticSurfaceRepresentation::SetHapticProperties(vtkHapticProperties* properties)
+{
+  if (this->HapticProperties != properties)
+  {
+    this->HapticProperties = properties;
+  }
+}
+
+vtkHapticProperties* vtkHapticSurfaceRepresentation::GetHapticProperties()
+{
+  return this->HapticProperties;
+}
+
+void vtkHapticSurfaceRepresentation::SetHapticArray(
+  int property, int, int, int association, const char* name)
+{
+  ArrayChoice& choice = this->HapticArrays[property];
+  choice.Association = association;
+  choice.Name = name ? name : "";
+}
+
+void vtkHapticSurfaceRepresentation::Configure(vtkGodObjectFilter* filter)
+{
+  if (this->HapticProperties)
+  {
+    filter->SetProperties(this->HapticProperties);
+  }
+  for (const auto& [property, choice] : this->HapticArrays)
+  {
+    // Does nothing where the filter has that choice.
+    filter->SetInputArrayToProcess(property, 0, 0, choice.Association, choice.Name.c_str());
+  }
 }
 
 void vtkHapticSurfaceRepresentation::PrintSelf(ostream& os, vtkIndent indent)

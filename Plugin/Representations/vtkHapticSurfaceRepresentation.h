@@ -26,11 +26,14 @@
 #include "vtkNew.h"
 #include "vtkSmartPointer.h"
 
+#include <map>
 #include <string>
 #include <vector>
 
 class vtkActor;
 class vtkDataObject;
+class vtkGodObjectFilter;
+class vtkHapticProperties;
 class vtkPolyData;
 class vtkTrivialProducer;
 
@@ -55,6 +58,19 @@ public:
    */
   vtkActor* GetTouchedActor();
 
+  ///@{
+  /**
+   * How it feels. Null, the default: the scene's stiffness and nothing else. The arrays are chosen
+   * as by vtkAlgorithm::SetInputArrayToProcess(), with the indices of
+   * vtkHapticProperties::PropertyType; port and connection are not looked at.
+   */
+  void SetHapticProperties(vtkHapticProperties* properties);
+  vtkHapticProperties* GetHapticProperties();
+  void SetHapticArray(int property, int port, int connection, int association, const char* name);
+  ///@}
+  /** Makes a surface of the scene feel so. */
+  void Configure(vtkGodObjectFilter* filter);
+
 protected:
   vtkHapticSurfaceRepresentation();
   ~vtkHapticSurfaceRepresentation() override;
@@ -74,6 +90,14 @@ private:
   vtkMTimeType DeliveredTime = 0;
   vtkSmartPointer<vtkActor> Touched; // made when something is delivered
   vtkNew<vtkTrivialProducer> Producer;
+
+  struct ArrayChoice
+  {
+    int Association = 0;
+    std::string Name;
+  };
+  vtkSmartPointer<vtkHapticProperties> HapticProperties;
+  std::map<int, ArrayChoice> HapticArrays; // by property
 };
 
 #endif

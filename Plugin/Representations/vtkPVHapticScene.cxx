@@ -172,6 +172,7 @@ void vtkPVHapticScene::SyncSurfaces()
       surface.Id = self.Scene->AddSurface(surface.Actor);
       vtkGodObjectFilter* filter = self.Scene->GetSurfaceFilter(surface.Id);
       filter->SetSide(self.Side);
+      representation->Configure(filter);
       filter->SetMergeToleranceIsAbsolute(true);
       filter->SetMergeTolerance(
         self.InPieces ? SeamWidth(surface.Actor->GetMapper()->GetInputAsDataSet()) : 0.0);
