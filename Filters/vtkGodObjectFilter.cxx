@@ -18,6 +18,7 @@
 #include "vtkStringArray.h"
 
 #include <algorithm>
+#include <cstring>
 #include <memory>
 #include <string>
 
@@ -97,7 +98,9 @@ std::shared_ptr<const haptics::SurfaceProperties> vtkGodObjectFilter::MakeProper
       int association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
       chosen.Array = this->GetInputArrayToProcess(property, geometry, association);
       chosen.IsPerCell = association == vtkDataObject::FIELD_ASSOCIATION_CELLS;
-      chosen.Missing = chosen.Array ? "" : name ? name : "of the attribute asked for";
+      // What ParaView calls the choice of none.
+      const bool isNone = name && std::strcmp(name, "None") == 0;
+      chosen.Missing = chosen.Array || isNone ? "" : name ? name : "of the attribute asked for";
     }
     return chosen;
   };

@@ -42,7 +42,7 @@ stiffness.SetName("stiffness")
 for i in range(surface.GetNumberOfPoints()):
     x, y, _ = surface.GetPoint(i)
     surface.GetPoints().SetPoint(i, x, y, 6.0 * (x * x - y * y))
-    stiffness.InsertNextValue(150.0 if x < 0.0 else 550.0)
+    stiffness.InsertNextValue(550.0 if x < 0.0 else 120.0)
 surface.GetPointData().AddArray(stiffness)
 
 device, scene = vtkSimulatedHapticDevice(), vtkHapticScene()
@@ -67,7 +67,7 @@ pull, push = -scene.GetForce()[0], scene.GetForce()[2]
 assert pull > 0.5 * push, "friction drags"
 
 colors = vtkColorTransferFunction()
-colors.AddRGBPoint(150.0, 0.35, 0.5, 0.85)
+colors.AddRGBPoint(120.0, 0.35, 0.5, 0.85)
 colors.AddRGBPoint(550.0, 0.85, 0.45, 0.3)
 normals = vtkPolyDataNormals()
 normals.SetInputData(surface)
