@@ -260,7 +260,7 @@ bool GodObject::Continue(const GodObject& previous) noexcept
   this->Internal->Result = previous.Internal->Result;
   const bool isSeamless = this->Internal->Continue(*previous.Internal);
   this->Internal->StayInContact(*previous.Internal);
-  return isSeamless;
+  return isSeamless && this->Internal->FeelsAs(*previous.Internal);
 }
 
 void GodObject::Advance(double dt) noexcept

@@ -95,6 +95,16 @@ void GodObject::Implementation::UpdateFeel()
   }
 }
 
+/// Whether no surface feels other than it did: a hand would notice that at once. (One that has
+/// deformed has its properties anew, and they go on.)
+bool GodObject::Implementation::FeelsAs(const Implementation& previous) const
+{
+  return std::equal(this->Surfaces.begin(), this->Surfaces.end(), previous.Surfaces.begin(),
+    previous.Surfaces.end(),
+    [](const TouchedSurface& a, const TouchedSurface& b)
+    { return a.Surface != b.Surface || a.Properties == b.Properties; });
+}
+
 /// Keeps what held another god-object, at the same place, where only properties have changed or
 /// a surface goes on deforming: so that one held by friction stays.
 void GodObject::Implementation::StayInContact(const Implementation& previous)
@@ -102,9 +112,7 @@ void GodObject::Implementation::StayInContact(const Implementation& previous)
   const bool isSameShape = std::equal(this->Surfaces.begin(), this->Surfaces.end(),
     previous.Surfaces.begin(), previous.Surfaces.end(),
     [](const TouchedSurface& a, const TouchedSurface& b)
-    {
-      return (a.Surface == b.Surface || a.Surface->Follows(*b.Surface)) && a.Motion == b.Motion;
-    });
+    { return (a.Surface == b.Surface || a.Surface->Follows(*b.Surface)) && a.Motion == b.Motion; });
   this->Result.Felt = Feel();
   if (!isSameShape || previous.Active.IsEmpty())
   {

@@ -38,6 +38,7 @@ public:
   void Update(const Vector& hip);
   void UpdateFeel();
   void StayInContact(const Implementation& previous);
+  bool FeelsAs(const Implementation& previous) const;
 
   std::vector<TouchedSurface> Surfaces;
   std::vector<WorkingSet> Sets; ///< one a surface
