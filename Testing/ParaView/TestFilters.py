@@ -100,7 +100,7 @@ class TestFilters(unittest.TestCase):
         plane = self.make("Plane", XResolution=10, YResolution=10, Origin=[-0.05, -0.05, 0.0],
                           Point1=[0.05, -0.05, 0.0], Point2=[-0.05, 0.05, 0.0])
         data = self.make("Calculator", Input=plane, ResultArrayName="data", Function="coordsX")
-        surface = self.make("GodObjectSurface", Input=data)
+        surface = self.make("GodObjectFilter", Input=data)
         path = self.make("Line", Point1=[0.031, 0.007, 0.001], Point2=[0.031, 0.007, -0.003],
                          Resolution=40)
         trace = self.make("GodObjectTrace", Path=path, Surface=surface)
