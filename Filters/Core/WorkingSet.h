@@ -149,7 +149,7 @@ private:
     return { ToVector(points[corners[0]]), ToVector(points[corners[1]]),
       ToVector(points[corners[2]]) };
   }
-  bool PlaceOutside(const Vector& nearest, const Vector& outwards, const int* enclosed);
+  bool PlaceOff(const Vector& nearest, const Vector& outwards, const int* enclosed);
   SurfaceSide SideOf(const TriangleSurface& surface, double fraction);
   bool IsSweeping() const { return this->Next != this->Now; }
   bool GatherSwept(const Vector& to, WorkBudget& budget);

@@ -6,10 +6,15 @@ namespace haptics
 namespace
 {
 /// Whether enclosing is a matter of counting.
-bool IsSolid(const TriangleSurface& surface)
+bool HasInside(const TriangleSurface& surface)
 {
-  return surface.TouchedSide() == Side::Front && surface.Report().Closed &&
-    surface.Report().Oriented;
+  return surface.Report().Closed && surface.Report().Oriented;
+}
+/// Whether a god-object may be enclosed so often that was so before: a front can be left through
+/// its back, but where both sides are touched it stays on its own.
+bool IsSameSide(const TriangleSurface& surface, int enclosed, int before)
+{
+  return surface.TouchedSide() == Side::Front ? enclosed <= before : enclosed == before;
 }
 /// A facet that leans farther than this from what held the god-object before is not taken for it.
 constexpr double LeastCosine = 0.25;
@@ -31,9 +36,10 @@ bool WorkingSet::Succeed(const WorkingSet& previous, const ActivePlane* held)
   const Vector there = this->Position;
   int enclosedBefore = 0;
   int enclosed = 0;
-  const bool isCounted = IsSolid(*previous.Touched) && IsSolid(*this->Touched) &&
+  const bool isCounted = HasInside(*previous.Touched) && HasInside(*this->Touched) &&
+    previous.Touched->TouchedSide() == this->Touched->TouchedSide() &&
     before.CountEnclosing(previous.Position, enclosedBefore) && now.CountEnclosing(there, enclosed);
-  if (isCounted && enclosed <= enclosedBefore)
+  if (isCounted && IsSameSide(*this->Touched, enclosed, enclosedBefore))
   {
     return true;
   }
@@ -58,12 +64,18 @@ bool WorkingSet::Succeed(const WorkingSet& previous, const ActivePlane* held)
       return true;
     }
   }
-  return !this->PlaceOutside(nearest, outwards, isCounted ? &enclosedBefore : nullptr);
+  if (!isCounted)
+  {
+    return !this->PlaceOff(nearest, outwards, nullptr);
+  }
+  return !this->PlaceOff(nearest, outwards, &enclosedBefore) &&
+    !this->PlaceOff(nearest, -outwards, &enclosedBefore);
 }
 
-/// Puts the god-object off the nearest point of the surface; where `enclosed` is given, not
-/// enclosed more often than that. False, with nothing changed, where that does not come about.
-bool WorkingSet::PlaceOutside(const Vector& nearest, const Vector& outwards, const int* enclosed)
+/// Puts the god-object off the nearest point of the surface; where `enclosed` is given, on the side
+/// that it had when it was enclosed so often. False, with nothing changed, where that does not come
+/// about.
+bool WorkingSet::PlaceOff(const Vector& nearest, const Vector& outwards, const int* enclosed)
 {
   SurfaceSide side = this->SideOf(*this->Touched, this->Now);
   double height = this->MinimumClearance;
@@ -71,7 +83,8 @@ bool WorkingSet::PlaceOutside(const Vector& nearest, const Vector& outwards, con
   {
     const Vector place = nearest + height * outwards;
     int count = 0;
-    if (!enclosed || (side.CountEnclosing(place, count) && count <= *enclosed))
+    if (!enclosed ||
+      (side.CountEnclosing(place, count) && IsSameSide(*this->Touched, count, *enclosed)))
     {
       this->Position = place;
       return true;
@@ -84,7 +97,7 @@ bool WorkingSet::PlaceOutside(const Vector& nearest, const Vector& outwards, con
 void WorkingSet::SkipTick()
 {
   int before = 0;
-  const bool isCounted = IsSolid(*this->Touched) &&
+  const bool isCounted = HasInside(*this->Touched) &&
     this->SideOf(*this->Touched, this->Now).CountEnclosing(this->Position, before);
   this->Now = this->TickEnd;
   this->Next = this->Now;
@@ -95,10 +108,12 @@ void WorkingSet::SkipTick()
   Vector nearest(0.0);
   Vector normal(0.0);
   bool isOnRim = false;
-  if (isCounted && side.CountEnclosing(this->Position, after) && after > before &&
-    side.FindNearest(this->Position, nearest, normal, isOnRim))
+  if (isCounted && side.CountEnclosing(this->Position, after) &&
+    !IsSameSide(*this->Touched, after, before) &&
+    side.FindNearest(this->Position, nearest, normal, isOnRim) &&
+    !this->PlaceOff(nearest, normal, &before))
   {
-    this->PlaceOutside(nearest, normal, &before);
+    this->PlaceOff(nearest, -normal, &before);
   }
 }
 }

@@ -47,8 +47,9 @@ vtkSmartPointer<vtkPolyData> NextStep(vtkPolyData* before, double height)
   return next;
 }
 
-/// Minus the squared distance from the origin, on a grid of 8 mm: contours face outwards.
-vtkSmartPointer<vtkImageData> MakeSquaredDistance()
+/// The squared distance from the origin times a sign, on a grid of 8 mm: contours face outwards
+/// where it is negative, and are inside out where it is positive.
+vtkSmartPointer<vtkImageData> MakeSquaredDistance(double sign)
 {
   auto image = vtkSmartPointer<vtkImageData>::New();
   image->SetDimensions(26, 26, 26);
@@ -59,7 +60,7 @@ vtkSmartPointer<vtkImageData> MakeSquaredDistance()
   {
     double p[3];
     image->GetPoint(i, p);
-    image->GetPointData()->GetScalars()->SetTuple1(i, -vtkMath::Dot(p, p));
+    image->GetPointData()->GetScalars()->SetTuple1(i, sign * vtkMath::Dot(p, p));
   }
   return image;
 }
@@ -175,13 +176,18 @@ TEST(ChangingSurfaces, ABadTimeStepIsToldOnceAndTheSeriesGoesOn)
   EXPECT_TRUE(hand.Scene->GetTouching());
 }
 
-//  A ball that breathes, extracted anew at each time step: other triangles each time.
-TEST(ChangingSurfaces, ASeriesOfContoursIsStrokedWithoutALeakOrAPop)
+class ContourSeries : public ::testing::TestWithParam<double>
 {
+};
+
+// A ball that breathes, extracted anew at each time step: other triangles each time.
+TEST_P(ContourSeries, IsStrokedWithoutALeakOrAPop)
+{
+  const double sign = GetParam();
   vtkNew<vtkContourFilter> contour;
-  contour->SetInputData(MakeSquaredDistance());
+  contour->SetInputData(MakeSquaredDistance(sign));
   contour->ComputeNormalsOff();
-  const auto show = [&contour](double radius) { contour->SetValue(0, -radius * radius); };
+  const auto show = [&](double radius) { contour->SetValue(0, sign * radius * radius); };
   show(0.06);
 
   LedHand hand;
@@ -214,3 +220,6 @@ TEST(ChangingSurfaces, ASeriesOfContoursIsStrokedWithoutALeakOrAPop)
   EXPECT_GT(touched, 25);
   EXPECT_LT(touched, 40);
 }
+
+INSTANTIATE_TEST_SUITE_P(ChangingSurfaces, ContourSeries, ::testing::Values(-1.0, 1.0),
+  [](const auto& info) { return info.param < 0.0 ? "FacingOutwards" : "InsideOut"; });
