@@ -1,0 +1,187 @@
+// The part of WorkingSet that fetches triangles from the surface's engine.
+#include "WorkingSet.h"
+
+#include "FacetBatch.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace haptics
+{
+namespace
+{
+/// An engine that finds more in a ball is stopped, and a ball of half the radius is tried. Where
+/// even the smallest ball has more, as near the tip of a fan, more are let through.
+constexpr std::int32_t FewInBall = 64;
+/// About as many make gathering rare and scanning quick.
+constexpr double WantedInBall = 16.0;
+/// How far ahead of the god-object a ball is centred, in radii.
+constexpr double Lead = 0.5;
+
+void Prefetch(const void* address)
+{
+#if defined(__GNUC__)
+  __builtin_prefetch(address);
+#else
+  (void)address;
+#endif
+}
+}
+
+bool WorkingSet::GatherBall(WorkBudget& budget)
+{
+  this->Covered = Region::Nothing;
+  const Vector moved = this->Position - this->GatheredAt;
+  this->GatheredAt = this->Position;
+  const double surfaceRadius = this->Touched->Radius();
+  const double fromOrigin = glm::length(this->Position);
+  if (fromOrigin > 1.5 * surfaceRadius)
+  {
+    // No triangle is this far out.
+    this->Centre = this->Position;
+    this->Radius = (fromOrigin - surfaceRadius) * (1.0 - 0x1p-40);
+    this->RadiusToTry = surfaceRadius;
+    this->Count = 0;
+    this->FoundCount = 0;
+    this->EmptyCentre = this->Position;
+    this->EmptyRadius = this->Radius;
+    this->MeasurePosition();
+    this->Covered = Region::Ball;
+    return true;
+  }
+  const auto capacity = static_cast<std::int32_t>(this->Found.size());
+  const double lead = glm::length(moved);
+  double radius = this->RadiusToTry;
+  const double smallest = 0x1p-20 * surfaceRadius;
+  while (budget.Triangles > 0)
+  {
+    // Ahead of a steady motion, so that the ball serves longer.
+    const bool isSteady = lead > 0.0 && lead < 2.0 * radius;
+    this->Centre = this->Position + (isSteady ? Lead * radius / lead : 0.0) * moved;
+    TriangleList found{ this->Found.data(), std::min(capacity, this->MostInBall) };
+    this->Touched->Engine().FindInBall(ToVec3(this->Centre), radius, found);
+    budget.Triangles -= found.Count;
+    if (!found.Overflow)
+    {
+      this->Radius = radius * (1.0 - 0x1p-40);
+      this->Fill(found, this->Centre, radius, radius);
+      this->Covered = Region::Ball;
+      const double change = std::sqrt(WantedInBall / (this->Count + 1.0));
+      // A surface of small triangles comes into a growing ball all at once: a radius that was too
+      // large is not tried again soon.
+      this->LargestToTry *= 1.05;
+      this->RadiusToTry =
+        std::min({ radius * std::clamp(change, 0.5, 4.0), surfaceRadius, this->LargestToTry });
+      if (found.Count < this->MostInBall / 4)
+      {
+        this->MostInBall = std::max(FewInBall, this->MostInBall / 2);
+      }
+      return true;
+    }
+    if (radius > smallest)
+    {
+      this->LargestToTry = 0.7 * radius;
+      radius *= 0.5;
+    }
+    else if (this->MostInBall < capacity)
+    {
+      this->MostInBall *= 4;
+      this->LargestToTry = HUGE_VAL;
+    }
+    else
+    {
+      return false;
+    }
+  }
+  return false;
+}
+
+bool WorkingSet::GatherSegment(const Vector& to, WorkBudget& budget)
+{
+  this->Covered = Region::Nothing;
+  this->Centre = this->Position;
+  // Far away there is no triangle, and the engine's coordinates are for the surface's own size.
+  const double reach = 1.5 * this->Touched->Radius();
+  const Vector way = to - this->Position;
+  const double a = SquaredLength(way);
+  const double b = glm::dot(way, this->Position);
+  const double c = SquaredLength(this->Position) - reach * reach;
+  const double root = b * b - a * c;
+  double enter = 0.0;
+  double leave = 1.0;
+  if (a > 0.0 && root > 0.0)
+  {
+    enter = std::max(0.0, (-b - std::sqrt(root)) / a);
+    leave = std::min(1.0, (-b + std::sqrt(root)) / a);
+  }
+  const Vector first = this->Position + enter * way;
+  const Vector last = this->Position + leave * way;
+  TriangleList found{ this->Found.data(), static_cast<std::int32_t>(this->Found.size()) };
+  if ((a == 0.0 || root > 0.0) && enter <= leave)
+  {
+    this->Touched->Engine().FindOnSegment(ToVec3(first), ToVec3(last), found);
+    budget.Triangles -= found.Count;
+  }
+  if (found.Overflow || budget.Triangles <= 0)
+  {
+    return false;
+  }
+  this->Radius = HUGE_VAL;
+  this->Fill(
+    found, 0.5 * (first + last), 0.5 * glm::length(last - first) + this->Reach, std::sqrt(a));
+  this->Covered = Region::Segment;
+  return true;
+}
+
+void WorkingSet::Fill(
+  const TriangleList& found, const Vector& middle, double radius, double farthest)
+{
+  this->Count = 0;
+  this->FoundCount = found.Count;
+  double nearest = HUGE_VAL;
+  // The corners lie anywhere in memory: all are called for before the first is waited for.
+  for (std::int32_t k = 0; k < found.Count; ++k)
+  {
+    Prefetch(&this->Touched->Triangles()[found.Indices[k]]);
+  }
+  for (std::int32_t k = 0; k < found.Count; ++k)
+  {
+    for (const std::int32_t corner : this->Touched->Triangles()[found.Indices[k]])
+    {
+      Prefetch(&this->Touched->Points()[corner]);
+    }
+  }
+  FacetBatch batch;
+  for (std::int32_t start = 0; start < found.Count; start += FacetBatch::Capacity)
+  {
+    const std::int32_t size = std::min(FacetBatch::Capacity, found.Count - start);
+    for (std::int32_t k = 0; k < size; ++k)
+    {
+      const auto [a, b, c] = this->CornersOf(found.Indices[start + k]);
+      batch.Set(k, a, b, c);
+    }
+    batch.Answer(
+      size, { middle, radius, this->Centre, farthest, this->Position, this->MinimumClearance });
+    for (std::int32_t k = 0; k < size; ++k)
+    {
+      if (!batch.Meets(k))
+      {
+        continue;
+      }
+      nearest = std::min(nearest, batch.SquaredDistance(k));
+      const std::int32_t i = this->Count++;
+      this->Triangles[i] = found.Indices[start + k];
+      this->Flipped[i] = 0;
+      this->NormalX[i] = batch.Normal(k, 0);
+      this->NormalY[i] = batch.Normal(k, 1);
+      this->NormalZ[i] = batch.Normal(k, 2);
+      this->PlaneOffset[i] = batch.PlaneOffset(k);
+      this->Error[i] = batch.Error(k);
+      this->Clearance[i] = batch.Clearance(k);
+    }
+  }
+  this->EmptyRadius = 0.0;
+  this->GrowEmptyBall(std::sqrt(nearest));
+  this->MeasurePosition();
+}
+}
