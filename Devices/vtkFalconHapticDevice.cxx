@@ -5,6 +5,7 @@
 
 #include "vtkObjectFactory.h"
 
+#include <algorithm>
 #include <cmath>
 #include <system_error>
 

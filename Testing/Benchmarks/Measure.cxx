@@ -15,6 +15,7 @@
 
 #include <CGAL/version_macros.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>

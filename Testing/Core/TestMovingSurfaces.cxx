@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -30,7 +31,7 @@ RigidPose Turned(const Vec3& axis, double radians, const Vec3& translation = {})
   return { translation, { std::cos(0.5 * radians), s * u[0], s * u[1], s * u[2] } };
 }
 
-const Contact& TickWith(GodObject& god, const Vec3& hip)
+Contact TickWith(GodObject& god, const Vec3& hip)
 {
   god.Advance(Tick);
   return god.Update(hip);
