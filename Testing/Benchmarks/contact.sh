@@ -21,7 +21,8 @@ export HAPTICS_SURFACES
 
 rows=$(mktemp)
 trap 'rm -f "$rows"' EXIT
-"$program" --benchmark_out="$rows" --benchmark_out_format=csv >&2
+# Interleaved, so that a machine that is slower for some seconds is so for every row.
+"$program" --benchmark_enable_random_interleaving=true --benchmark_out="$rows" --benchmark_out_format=csv >&2
 mkdir -p "$(dirname "$out")"
 {
   echo "# machine: $(sed -n 's/^model name[^:]*: *//p' /proc/cpuinfo | sort -u | head -1), $(nproc) cores"
@@ -29,6 +30,7 @@ mkdir -p "$(dirname "$out")"
   echo "# compiler: $(c++ --version | head -1), Release"
   echo "# commit: $(git -C "$root" rev-parse --short HEAD 2>/dev/null || echo unknown)"
   echo "# date: $(date +%Y-%m-%d)"
-  grep -E '^name|_median' "$rows"
+  grep '^name' "$rows"
+  grep _median "$rows" | sort
 } > "$out"
 echo "$out"
