@@ -149,6 +149,7 @@ private:
     return { ToVector(points[corners[0]]), ToVector(points[corners[1]]),
       ToVector(points[corners[2]]) };
   }
+  bool PlaceBack(const Vector& nearest, const Vector& normal, int enclosed);
   bool PlaceOff(const Vector& nearest, const Vector& outwards, const int* enclosed);
   SurfaceSide SideOf(const TriangleSurface& surface, double fraction);
   bool IsSweeping() const { return this->Next != this->Now; }

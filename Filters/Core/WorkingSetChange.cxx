@@ -50,26 +50,27 @@ bool WorkingSet::Succeed(const WorkingSet& previous, const ActivePlane* held)
   {
     return true;
   }
-  Vector outwards = normal;
-  if (!isCounted)
+  if (isCounted)
   {
-    // Nothing to count: it has been gone over where what held it has come to its other side.
-    const Vector free = this->ToSurface.VectorToLocal(held->Normal);
-    const bool isTurned =
-      this->Touched->TouchedSide() == Side::Both && glm::dot(normal, free) < 0.0;
-    outwards = isTurned ? -normal : normal;
-    const bool isBehind = glm::dot(outwards, there - nearest) < 0.0;
-    if (isOnRim || !isBehind || glm::dot(outwards, free) < LeastCosine)
-    {
-      return true;
-    }
+    return !this->PlaceBack(nearest, normal, enclosedBefore);
   }
-  if (!isCounted)
+  // Nothing to count: it has been gone over where what held it has come to its other side.
+  const Vector free = this->ToSurface.VectorToLocal(held->Normal);
+  const bool isTurned = this->Touched->TouchedSide() == Side::Both && glm::dot(normal, free) < 0.0;
+  const Vector outwards = isTurned ? -normal : normal;
+  const bool isBehind = glm::dot(outwards, there - nearest) < 0.0;
+  if (isOnRim || !isBehind || glm::dot(outwards, free) < LeastCosine)
   {
-    return !this->PlaceOff(nearest, outwards, nullptr);
+    return true;
   }
-  return !this->PlaceOff(nearest, outwards, &enclosedBefore) &&
-    !this->PlaceOff(nearest, -outwards, &enclosedBefore);
+  return !this->PlaceOff(nearest, outwards, nullptr);
+}
+
+/// Puts the god-object off the nearest point of a closed surface, on whichever side it had when it
+/// was enclosed so often. False, with nothing changed, where that does not come about.
+bool WorkingSet::PlaceBack(const Vector& nearest, const Vector& normal, int enclosed)
+{
+  return this->PlaceOff(nearest, normal, &enclosed) || this->PlaceOff(nearest, -normal, &enclosed);
 }
 
 /// Puts the god-object off the nearest point of the surface; where `enclosed` is given, on the side
@@ -110,10 +111,9 @@ void WorkingSet::SkipTick()
   bool isOnRim = false;
   if (isCounted && side.CountEnclosing(this->Position, after) &&
     !IsSameSide(*this->Touched, after, before) &&
-    side.FindNearest(this->Position, nearest, normal, isOnRim) &&
-    !this->PlaceOff(nearest, normal, &before))
+    side.FindNearest(this->Position, nearest, normal, isOnRim))
   {
-    this->PlaceOff(nearest, -normal, &before);
+    this->PlaceBack(nearest, normal, before);
   }
 }
 }

@@ -6,11 +6,9 @@ array left out (another force arrow).
 usage: TestPropertyImage.py BASELINE OUTPUT_FOLDER
 """
 
-import os
 import sys
 
-import vtkmodules.vtkInteractionStyle  # noqa: F401  (registers the interactors)
-import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  (registers the render window)
+from image_test import compare, look_from, make_window
 from vtkhaptics import vtkHapticProperties, vtkHapticScene, vtkSimulatedHapticDevice
 from vtkmodules.vtkCommonCore import vtkDoubleArray
 from vtkmodules.vtkCommonDataModel import vtkDataObject
@@ -20,10 +18,7 @@ from vtkmodules.vtkRenderingCore import (
     vtkActor,
     vtkColorTransferFunction,
     vtkPolyDataMapper,
-    vtkRenderer,
-    vtkRenderWindow,
 )
-from vtkmodules.vtkTestingRendering import vtkTesting
 
 # As TestTouchImage.
 THRESHOLD = 0.2
@@ -78,25 +73,6 @@ mapper.SelectColorArray("stiffness")
 mapper.SetLookupTable(colors)
 actor = vtkActor()
 actor.SetMapper(mapper)
-renderer = vtkRenderer()
-renderer.SetBackground(0.95, 0.95, 0.95)
-renderer.AddActor(actor)
-renderer.AddViewProp(hand)
-window = vtkRenderWindow()
-window.SetSize(300, 300)
-window.SetMultiSamples(0)
-window.AddRenderer(renderer)
-camera = renderer.GetActiveCamera()
-camera.SetPosition(0.05, -0.22, 0.16)
-camera.SetViewUp(0.0, 0.0, 1.0)
-renderer.ResetCamera()
-camera.Zoom(1.1)
-renderer.ResetCameraClippingRange()
-hand.IncludeInClippingRange(renderer)
-window.Render()
-
-testing = vtkTesting()
-for argument in ("-T", output, "-V", os.path.abspath(baseline)):
-    testing.AddArgument(argument)
-testing.SetRenderWindow(window)
-sys.exit(0 if testing.RegressionTest(THRESHOLD) == vtkTesting.PASSED else 1)
+renderer, window = make_window(actor, hand)
+look_from(renderer, (0.05, -0.22, 0.16), (0.0, 0.0, 1.0), 1.1)
+sys.exit(compare(renderer, window, hand, baseline, output, THRESHOLD))

@@ -13,14 +13,11 @@ usage: TestSurfaceImages.py NAME SURFACES_FOLDER BASELINE OUTPUT_FOLDER
 import os
 import sys
 
-import vtkmodules.vtkInteractionStyle  # noqa: F401  (registers the interactors)
-import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  (registers the render window)
+from image_test import compare, look_from, make_window
 from vtkhaptics import vtkHapticScene, vtkSimulatedHapticDevice
 from vtkhaptics.picture import surface_actor
 from vtkhaptics.surfaces import read_surface
 from vtkmodules.vtkCommonCore import vtkLookupTable
-from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow
-from vtkmodules.vtkTestingRendering import vtkTesting
 
 SKIPPED = 77
 # VTK's default of 10 would not even miss the arrow; this leaves room for another driver's edges.
@@ -91,31 +88,14 @@ def main(name, folder, baseline, output):
     hand = scene.GetGodObjectActor()
     hand.SetSize(0.025)
     hand.ShowTrailOn()
-    renderer, window = vtkRenderer(), vtkRenderWindow()
-    renderer.SetBackground(0.95, 0.95, 0.95)
-    renderer.AddActor(actor)
-    renderer.AddViewProp(hand)
-    window.SetSize(300, 300)
-    window.SetMultiSamples(0)
-    window.AddRenderer(renderer)
+    renderer, window = make_window(actor, hand)
+    look_from(renderer, eye, up, 1.3)
     camera = renderer.GetActiveCamera()
-    camera.SetPosition(*eye)
-    camera.SetViewUp(*up)
-    renderer.ResetCamera()
-    camera.Zoom(1.3)
     window.Render()
     scene.Update()
     assert scene.FitWorkspace(camera), scene.GetErrorMessage()
     stroke(scene, device, renderer, start, end)
-    renderer.ResetCameraClippingRange()
-    hand.IncludeInClippingRange(renderer)
-    window.Render()
-
-    testing = vtkTesting()
-    for argument in ("-T", output, "-V", os.path.abspath(baseline)):
-        testing.AddArgument(argument)
-    testing.SetRenderWindow(window)
-    return 0 if testing.RegressionTest(THRESHOLD) == vtkTesting.PASSED else 1
+    return compare(renderer, window, hand, baseline, output, THRESHOLD)
 
 
 sys.exit(main(*sys.argv[1:5]))

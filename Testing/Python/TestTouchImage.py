@@ -6,11 +6,9 @@ usage: TestTouchImage.py BASELINE OUTPUT_FOLDER
 """
 
 import math
-import os
 import sys
 
-import vtkmodules.vtkInteractionStyle  # noqa: F401  (registers the interactors)
-import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  (registers the render window)
+from image_test import compare, look_from, make_window
 from vtkhaptics import vtkHapticScene, vtkSimulatedHapticDevice
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
@@ -18,10 +16,7 @@ from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
 from vtkmodules.vtkRenderingCore import (
     vtkActor,
     vtkPolyDataMapper,
-    vtkRenderer,
-    vtkRenderWindow,
 )
-from vtkmodules.vtkTestingRendering import vtkTesting
 
 # VTK's default of 10 would not even miss the arrow; this leaves room for another driver's edges.
 THRESHOLD = 0.05
@@ -68,25 +63,6 @@ mapper.SetInputConnection(normals.GetOutputPort())
 actor = vtkActor()
 actor.SetMapper(mapper)
 actor.GetProperty().SetColor(0.6, 0.7, 0.6)
-renderer = vtkRenderer()
-renderer.SetBackground(0.95, 0.95, 0.95)
-renderer.AddActor(actor)
-renderer.AddViewProp(hand)
-window = vtkRenderWindow()
-window.SetSize(300, 300)
-window.SetMultiSamples(0)
-window.AddRenderer(renderer)
-camera = renderer.GetActiveCamera()
-camera.SetPosition(0.1, -0.2, 0.22)
-camera.SetViewUp(0.0, 0.0, 1.0)
-renderer.ResetCamera()
-camera.Zoom(1.1)
-renderer.ResetCameraClippingRange()
-hand.IncludeInClippingRange(renderer)
-window.Render()
-
-testing = vtkTesting()
-for argument in ("-T", output, "-V", os.path.abspath(baseline)):
-    testing.AddArgument(argument)
-testing.SetRenderWindow(window)
-sys.exit(0 if testing.RegressionTest(THRESHOLD) == vtkTesting.PASSED else 1)
+renderer, window = make_window(actor, hand)
+look_from(renderer, (0.1, -0.2, 0.22), (0.0, 0.0, 1.0), 1.1)
+sys.exit(compare(renderer, window, hand, baseline, output, THRESHOLD))
