@@ -7,7 +7,7 @@ import sys
 
 folder = os.path.join(os.environ["HAPTICS_SOURCE_DIR"], "Interactors", "Python", "examples")
 examples = sorted(glob.glob(os.path.join(folder, "*.py")))
-assert len(examples) == 6, folder
+assert len(examples) == 7, folder
 ARGUMENTS = {"mouse_viewer.py": ["1"]}  # else it would wait for somebody
 for example in examples:
     command = [sys.executable, example, *ARGUMENTS.get(os.path.basename(example), [])]
