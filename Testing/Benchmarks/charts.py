@@ -8,12 +8,12 @@ xvfb-run. Measuring and drawing are apart, so that a chart can be drawn again fr
 """
 
 import argparse
-import csv
 import math
 import pathlib
-import sys
 
+from measured import per_hour, rows, short
 from panels import CIRCLE, DASHED, DIAMOND, INK, SQUARE, Panel, Scale, draw
+from tables import fill
 
 FAMILY = {  # name in the tables: (label, colour)
     "nearest surface": ("nearest surface", (200, 60, 50)),
@@ -35,35 +35,6 @@ LEAK_NOTES = {"paper": (-70, 10), "paper, iterated": (14, -2), "nearest surface"
               "paper, iterated, grown": (-16, -28),
               "vtkStaticCellLocator, tol 0": (-64, -4)}
 OURS, OTHER = (20, 60, 200), (210, 90, 30)
-
-
-def rows(folder, name):
-    """The rows of a CSV file, numbers as numbers; none where there is no such file."""
-    path = folder / (name + ".csv")
-    if not path.exists():
-        print(f"charts.py: no {path}: its chart is left out", file=sys.stderr)
-        return []
-    with open(path, newline="", encoding="utf-8") as file:
-        table = list(csv.DictReader(line for line in file if not line.startswith("#")))
-    for row in table:
-        for key, value in row.items():
-            try:
-                row[key] = float(value)
-            except ValueError:
-                pass
-    return table
-
-
-def per_hour(row):
-    """Leaks in an hour of contact at 1 kHz."""
-    return 3.6e6 * row["leaks"] / max(row["contacts"], 1.0)
-
-
-def short(number):
-    for limit, suffix, factor in ((1e6, "M", 1e-6), (1e3, "k", 1e-3)):
-        if number >= 0.9995 * limit:
-            return f"{number * factor:.3g}{suffix}"
-    return f"{number:.3g}"
 
 
 def decades(low, high, label):
@@ -254,7 +225,6 @@ def main():
         if arguments.only in (None, name):
             chart(arguments.results, arguments.output)
     if arguments.readme:
-        from tables import fill
         fill(arguments.readme, arguments.results)
 
 

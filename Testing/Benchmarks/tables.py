@@ -5,7 +5,7 @@ A README has lines `<!-- table: NAME -->` and `<!-- end -->`; what is between th
 
 import re
 
-from charts import per_hour, rows, short
+from measured import per_hour, rows, short
 
 METHODS = (  # name in the results: name in the table
     ("nearest surface", "nearest surface (Fig. 2b)"),

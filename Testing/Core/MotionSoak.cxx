@@ -5,12 +5,12 @@
 #include "ExactQueries.h"
 #include "GodObject.h"
 #include "HipPath.h"
+#include "SoakOptions.h"
 #include "SurfaceDeformer.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <deque>
 #include <functional>
 #include <random>
@@ -290,48 +290,13 @@ void Run(const Scene& scene, HipPath::Kind kind, long ticks, unsigned seed, Tall
     tally.Overloads += contact.Status == UpdateStatus::Overloaded;
   }
 }
-
-void PrintHelp(const char* program)
-{
-  std::printf("Usage: %s [--ticks N] [--seed N] [--scene NAME]\n\n"
-              "  --ticks N    ticks for each scene and kind of way; default 400. The long form is\n"
-              "               --ticks 40000.\n"
-              "  --seed N     of the random ways and motions; default 1. A failure prints it.\n"
-              "  --scene NAME only this scene\n",
-    program);
-}
 }
 
 int main(int argc, char* argv[])
 {
-  long ticks = 400;
-  unsigned seed = 1;
-  std::string only;
-  for (int i = 1; i < argc; ++i)
-  {
-    const std::string option = argv[i];
-    const bool isKnown = option == "--ticks" || option == "--seed" || option == "--scene";
-    if (!isKnown || i + 1 == argc)
-    {
-      PrintHelp(argv[0]);
-      return option == "--help" ? 0 : 2;
-    }
-    const char* const value = argv[++i];
-    if (option == "--ticks")
-    {
-      ticks = std::atol(value);
-    }
-    else if (option == "--seed")
-    {
-      seed = static_cast<unsigned>(std::atol(value));
-    }
-    else
-    {
-      only = value;
-    }
-  }
+  const SoakOptions options = SoakOptions::Parse(argc, argv, 400, 40000);
   std::printf("%-32s %10s %10s %6s %6s %6s %9s %9s   (seed %u)\n", "scene", "ticks", "contacts",
-    "leaks", "pops", "away", "squeezed", "overloads", seed);
+    "leaks", "pops", "away", "squeezed", "overloads", options.Seed);
   Tally all;
   const auto print = [](const char* name, const Tally& t)
   {
@@ -341,14 +306,14 @@ int main(int argc, char* argv[])
   };
   for (const Scene& scene : AllScenes())
   {
-    if (!only.empty() && only != scene.Name)
+    if (!options.Chooses(scene.Name))
     {
       continue;
     }
     Tally tally;
     for (int kind = 0; kind < HipPath::NumberOfKinds; ++kind)
     {
-      Run(scene, static_cast<HipPath::Kind>(kind), ticks, seed + kind, tally);
+      Run(scene, static_cast<HipPath::Kind>(kind), options.Ticks, options.Seed + kind, tally);
     }
     print(scene.Name, tally);
     all.Ticks += tally.Ticks;

@@ -5,12 +5,11 @@
 #include "ExactQueries.h"
 #include "GodObject.h"
 #include "HipPath.h"
+#include "SoakOptions.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <functional>
 #include <string>
 
@@ -145,10 +144,9 @@ double UnansweredPull(const Contact& contact)
   return best / contact.Penetration;
 }
 
-void Run(const Scene& scene, HipPath::Kind kind, long ticks, unsigned seed, EngineKind engine,
-  Tally& tally)
+void Run(const Scene& scene, HipPath::Kind kind, long ticks, unsigned seed, Tally& tally)
 {
-  const auto surface = MakeSurface(scene.Make(), scene.TouchedSide, engine);
+  const auto surface = MakeSurface(scene.Make(), scene.TouchedSide);
   const ExactQueries exact(surface);
   GodObject god({ surface });
   HipPath path(kind, scene.Reach, seed);
@@ -199,79 +197,28 @@ void Run(const Scene& scene, HipPath::Kind kind, long ticks, unsigned seed, Engi
       UnansweredPull(contact) > 1e-3;
     tally.Stalls += stalled;
     tally.DoubleStalls += stalled && stalledBefore;
-    if (stalled && std::getenv("SOAK_SHOW_STALLS"))
-    {
-      std::printf("STALL %s, %s, tick %ld, seed %u: constraints %d, unanswered %g\n", scene.Name,
-        HipPath::NameOf(kind), tick, seed, contact.NumberOfConstraints, UnansweredPull(contact));
-    }
     stalledBefore = stalled;
     before = now;
   }
-}
-
-void PrintHelp(const char* program)
-{
-  std::printf(
-    "Usage: %s [--ticks N] [--seed N] [--scene NAME] [--engine bruteforce|embree]\n\n"
-    "  --ticks N    ticks for each scene and kind of way; default 4000. The long form is\n"
-    "               --ticks 450000: ten million in contact.\n"
-    "  --seed N     of the random ways; default 1. A failure prints the seed to repeat.\n"
-    "  --scene NAME only this scene\n"
-    "  --engine E   default: chosen by size\n",
-    program);
 }
 }
 
 int main(int argc, char* argv[])
 {
-  long ticks = 4000;
-  unsigned seed = 1;
-  std::string only;
-  EngineKind engine = EngineKind::Automatic;
-  for (int i = 1; i < argc; ++i)
-  {
-    const std::string option = argv[i];
-    if (option == "--help" || i + 1 == argc)
-    {
-      PrintHelp(argv[0]);
-      return option == "--help" ? 0 : 2;
-    }
-    const char* const value = argv[++i];
-    if (option == "--ticks")
-    {
-      ticks = std::atol(value);
-    }
-    else if (option == "--seed")
-    {
-      seed = static_cast<unsigned>(std::atol(value));
-    }
-    else if (option == "--scene")
-    {
-      only = value;
-    }
-    else if (option == "--engine")
-    {
-      engine = std::strcmp(value, "embree") ? EngineKind::BruteForce : EngineKind::Embree;
-    }
-    else
-    {
-      PrintHelp(argv[0]);
-      return 2;
-    }
-  }
+  const SoakOptions options = SoakOptions::Parse(argc, argv, 4000, 450000);
   std::printf("%-32s %10s %10s %6s %6s %7s %7s %9s   (seed %u)\n", "scene", "ticks", "contacts",
-    "leaks", "away", "stalls", "twice", "overloads", seed);
+    "leaks", "away", "stalls", "twice", "overloads", options.Seed);
   Tally all;
   for (const Scene& scene : AllScenes())
   {
-    if (!only.empty() && only != scene.Name)
+    if (!options.Chooses(scene.Name))
     {
       continue;
     }
     Tally tally;
     for (int kind = 0; kind < HipPath::NumberOfKinds; ++kind)
     {
-      Run(scene, static_cast<HipPath::Kind>(kind), ticks, seed + kind, engine, tally);
+      Run(scene, static_cast<HipPath::Kind>(kind), options.Ticks, options.Seed + kind, tally);
     }
     const auto print = [](const char* name, const Tally& t)
     {
