@@ -10,9 +10,11 @@
 #endif
 
 #include <glm/common.hpp>
+#include <glm/vec4.hpp>
 
 #include <atomic>
 #include <cmath>
+#include <cstring>
 
 namespace haptics
 {
@@ -60,6 +62,13 @@ void CollectFromSegment(const RTCOccludedFunctionNArguments* query)
   }
 }
 
+/// The bounds of a point, or of the way that it goes, in Embree's frame, as a triangle's are made
+/// of them: rounding keeps the order, so that it does not matter which is done first.
+struct PointBounds
+{
+  glm::vec4 Low, High; // laid out as in RTCBounds, the last is not used
+};
+
 class EmbreeEngine final : public CollisionEngine
 {
 public:
@@ -89,6 +98,10 @@ public:
     rtcAttachGeometry(this->Scene, this->Geometry);
     rtcReleaseGeometry(this->Geometry); // the scene keeps it
     rtcCommitScene(this->Scene);
+    if (!input.IsRefitted)
+    {
+      this->Bounds = {};
+    }
   }
 
   ~EmbreeEngine() override
@@ -157,48 +170,39 @@ public:
   }
   std::size_t MemoryBytes() const noexcept override
   {
-    return static_cast<std::size_t>(this->Bytes.load());
+    return static_cast<std::size_t>(this->Bytes.load()) +
+      this->Bounds.capacity() * sizeof(PointBounds);
   }
 
 private:
   void Take(const EngineInput& input)
   {
-    this->Points = &input.Points;
-    this->StartPoints = input.StartPoints;
     this->Triangles = &input.Triangles;
     this->Scale = std::exp2(-std::ceil(std::log2(input.Radius)));
-    this->BoxPad = Pad + input.Margin * this->Scale;
+    const double pad = Pad + input.Margin * this->Scale;
+    // Each corner belongs to about six triangles: its part is worked out once.
+    this->Bounds.resize(input.Points.size());
+    for (std::size_t i = 0; i < this->Bounds.size(); ++i)
+    {
+      const Vector to = ToVector(input.Points[i]) * this->Scale;
+      const Vector from = input.StartPoints ? ToVector((*input.StartPoints)[i]) * this->Scale : to;
+      this->Bounds[i].Low = glm::vec4(glm::min(from, to) - pad, 0.0);
+      this->Bounds[i].High = glm::vec4(glm::max(from, to) + pad, 0.0);
+    }
   }
 
   static void ComputeBounds(const RTCBoundsFunctionArguments* arguments)
   {
     const auto* self = static_cast<const EmbreeEngine*>(arguments->geometryUserPtr);
     const auto& t = (*self->Triangles)[arguments->primID];
-    Vector least(HUGE_VAL);
-    Vector most(-HUGE_VAL);
-    const auto cover = [&](const std::vector<Vec3>& points)
-    {
-      for (const std::int32_t corner : t)
-      {
-        const Vector x = ToVector(points[corner]);
-        least = glm::min(least, x);
-        most = glm::max(most, x);
-      }
-    };
-    cover(*self->Points);
-    if (self->StartPoints)
-    {
-      cover(*self->StartPoints);
-    }
-    const Vector low = least * self->Scale - self->BoxPad;
-    const Vector high = most * self->Scale + self->BoxPad;
-    RTCBounds& bounds = *arguments->bounds_o;
-    bounds.lower_x = static_cast<float>(low.x);
-    bounds.lower_y = static_cast<float>(low.y);
-    bounds.lower_z = static_cast<float>(low.z);
-    bounds.upper_x = static_cast<float>(high.x);
-    bounds.upper_y = static_cast<float>(high.y);
-    bounds.upper_z = static_cast<float>(high.z);
+    const PointBounds& a = self->Bounds[t[0]];
+    const PointBounds& b = self->Bounds[t[1]];
+    const PointBounds& c = self->Bounds[t[2]];
+    const glm::vec4 low = glm::min(glm::min(a.Low, b.Low), c.Low);
+    const glm::vec4 high = glm::max(glm::max(a.High, b.High), c.High);
+    // Embree reads four numbers at once, which waits for four that were written one by one.
+    std::memcpy(&arguments->bounds_o->lower_x, &low, sizeof(low));
+    std::memcpy(&arguments->bounds_o->upper_x, &high, sizeof(high));
   }
 
   static bool CountBytes(void* self, ssize_t bytes, bool)
@@ -208,11 +212,10 @@ private:
   }
 
   // Read while Embree builds, and never by a query.
-  const std::vector<Vec3>* Points = nullptr;
-  const std::vector<Vec3>* StartPoints = nullptr; ///< null where none moves
   const std::vector<std::array<std::int32_t, 3>>* Triangles = nullptr;
-  double Scale = 1.0;  ///< surface's local frame to Embree's
-  double BoxPad = 0.0; ///< in Embree's frame
+  std::vector<PointBounds> Bounds; ///< empty where no refit will come
+
+  double Scale = 1.0; ///< surface's local frame to Embree's
   std::atomic<std::ptrdiff_t> Bytes{ 0 };
   RTCDevice Device;
   RTCScene Scene = nullptr;

@@ -38,7 +38,9 @@ std::string FindFault(
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     const Vec3& p = points[i];
-    if (!std::all_of(p.begin(), p.end(), [](double x) { return std::abs(x) < LargestCoordinate; }))
+    // Not less is also how NaN answers.
+    if (!(std::abs(p[0]) < LargestCoordinate && std::abs(p[1]) < LargestCoordinate &&
+          std::abs(p[2]) < LargestCoordinate))
     {
       return "point " + std::to_string(i) + " is not finite, or beyond 1e70";
     }
@@ -174,7 +176,7 @@ std::shared_ptr<const TriangleSurface> SurfaceDeformer::Deform(
   {
     p = ToVec3(ToVector(p) - origin);
   }
-  next->LocalPoints = std::move(points);
+  next->LocalPoints = std::make_shared<const std::vector<Vec3>>(std::move(points));
   if (!next->Measure(&from))
   {
     error = "no triangle of the surface has an area any more";

@@ -79,19 +79,24 @@ TriangleSurface::TriangleSurface()
 bool TriangleSurface::Measure(const TriangleSurface* start)
 {
   double squaredRadius = 0.0;
+  double squaredEdge = 0.0;
+  const std::vector<Vec3>& points = this->Points();
   for (const Triangle& t : this->Triangles())
   {
-    const Facet facet(ToVector(this->LocalPoints[t[0]]), ToVector(this->LocalPoints[t[1]]),
-      ToVector(this->LocalPoints[t[2]]));
-    for (const Vector& corner : facet.Corner)
+    const Vector a = ToVector(points[t[0]]);
+    const Vector b = ToVector(points[t[1]]);
+    const Vector c = ToVector(points[t[2]]);
+    squaredRadius =
+      std::max({ squaredRadius, SquaredLength(a), SquaredLength(b), SquaredLength(c) });
+    const double longest =
+      std::max({ SquaredLength(c - b), SquaredLength(a - c), SquaredLength(b - a) });
+    // Whether it has an area is asked of those few that are longer than all before.
+    if (longest > squaredEdge && Facet(a, b, c).HasArea())
     {
-      squaredRadius = std::max(squaredRadius, SquaredLength(corner));
-    }
-    if (facet.HasArea())
-    {
-      this->EndLongestEdge = std::max(this->EndLongestEdge, facet.LongestEdge);
+      squaredEdge = longest;
     }
   }
+  this->EndLongestEdge = std::sqrt(squaredEdge);
   this->EndRadius = std::sqrt(squaredRadius) * (1.0 + 0x1p-40);
   this->LongestEdge = std::max(this->EndLongestEdge, start ? start->EndLongestEdge : 0.0);
   if (start)
@@ -105,9 +110,8 @@ bool TriangleSurface::Measure(const TriangleSurface* start)
 
 EngineInput TriangleSurface::Input(bool isRefitted) const
 {
-  return { this->LocalPoints, this->Triangles(), this->SurfaceRadius,
-    LargestGrowth(this->MinimumClearance, this->LongestEdge),
-    this->Deforms() ? &this->Start : nullptr, isRefitted };
+  return { this->Points(), this->Triangles(), this->SurfaceRadius,
+    LargestGrowth(this->MinimumClearance, this->LongestEdge), this->StartPoints(), isRefitted };
 }
 
 std::shared_ptr<const TriangleSurface> TriangleSurface::Build(
@@ -121,7 +125,7 @@ std::shared_ptr<const TriangleSurface> TriangleSurface::Build(
   std::shared_ptr<TriangleSurface> surface(new TriangleSurface);
   surface->SurfaceRadius = Recentre(mesh, surface->SurfaceOrigin);
   surface->CrackWidth = options.CrackWidth;
-  surface->LocalPoints = std::move(mesh.Points);
+  surface->LocalPoints = std::make_shared<const std::vector<Vec3>>(std::move(mesh.Points));
   const auto topology = std::make_shared<Topology>();
   topology->Triangles = std::move(mesh.Triangles);
   surface->Shared = topology;
@@ -130,7 +134,7 @@ std::shared_ptr<const TriangleSurface> TriangleSurface::Build(
     error = "no triangle of the surface has an area";
     return nullptr;
   }
-  topology->Found = AnalyseSurface(surface->LocalPoints, topology->Triangles, topology->Adjacent);
+  topology->Found = AnalyseSurface(surface->Points(), topology->Triangles, topology->Adjacent);
   surface->Touched = options.TouchedSide;
   if (surface->Touched == Side::Automatic)
   {
@@ -153,7 +157,7 @@ TriangleSurface::~TriangleSurface() = default;
 
 std::size_t TriangleSurface::MemoryBytes() const
 {
-  return sizeof(*this) + (this->LocalPoints.capacity() + this->Start.capacity()) * sizeof(Vec3) +
+  return sizeof(*this) + (this->Deforms() ? 2 : 1) * this->Points().capacity() * sizeof(Vec3) +
     this->Triangles().capacity() * sizeof(Triangle) +
     this->AdjacentTriangles().capacity() * sizeof(Neighbours::value_type) +
     this->Collision->MemoryBytes();

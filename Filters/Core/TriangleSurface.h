@@ -65,7 +65,7 @@ public:
   /// Origin of the local frame, in the world frame: the middle of the bounds.
   const Vec3& Origin() const { return this->SurfaceOrigin; }
   /// Points in the local frame: world minus Origin(). Of a surface that deforms: where they go.
-  const std::vector<Vec3>& Points() const { return this->LocalPoints; }
+  const std::vector<Vec3>& Points() const { return *this->LocalPoints; }
   const std::vector<Triangle>& Triangles() const { return this->Shared->Triangles; }
   /// Half the diagonal of the bounds: no point is farther from Origin(). [world unit]
   double Radius() const { return this->SurfaceRadius; }
@@ -86,21 +86,21 @@ public:
   ///@{
   /// A surface that deforms, made by SurfaceDeformer: its points are on their way from
   /// StartPoints() to Points() for a time.
-  bool Deforms() const { return !this->Start.empty(); }
-  /// Local frame; empty where nothing deforms.
-  const std::vector<Vec3>& StartPoints() const { return this->Start; }
+  bool Deforms() const { return this->Start != nullptr; }
+  /// Local frame; null where nothing deforms.
+  const std::vector<Vec3>* StartPoints() const { return this->Start.get(); }
   /// How long the points are on their way [s], from when the snapshot is first touched.
   double DeformDuration() const { return this->Duration; }
   /// A point when a fraction of the time is over, 0 to 1: the same for every triangle that shares
   /// it.
   Vec3 PointAt(std::int32_t point, double fraction) const
   {
-    const Vec3& to = this->LocalPoints[point];
-    if (fraction >= 1.0 || this->Start.empty())
+    const Vec3& to = (*this->LocalPoints)[point];
+    if (fraction >= 1.0 || !this->Start)
     {
       return to;
     }
-    const Vec3& from = this->Start[point];
+    const Vec3& from = (*this->Start)[point];
     return { from[0] + fraction * (to[0] - from[0]), from[1] + fraction * (to[1] - from[1]),
       from[2] + fraction * (to[2] - from[2]) };
   }
@@ -129,7 +129,8 @@ private:
   bool Measure(const TriangleSurface* start);
   EngineInput Input(bool isRefitted) const;
 
-  std::vector<Vec3> LocalPoints, Start;
+  /// A snapshot's are the next one's start.
+  std::shared_ptr<const std::vector<Vec3>> LocalPoints, Start;
   std::shared_ptr<const Topology> Shared;
   Vec3 SurfaceOrigin{};
   double SurfaceRadius = 0.0;
