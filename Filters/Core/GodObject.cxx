@@ -15,7 +15,6 @@ constexpr int LargestNumberOfHalvings = 6;
 
 GodObject::Implementation::Implementation(std::vector<TouchedSurface> surfaces)
   : Surfaces(std::move(surfaces))
-  , Last(this->Surfaces.size())
 {
   if (!this->Surfaces.empty())
   {
@@ -30,6 +29,11 @@ GodObject::Implementation::Implementation(std::vector<TouchedSurface> surfaces)
   {
     const auto index = static_cast<std::int32_t>(this->Sets.size());
     this->Sets.emplace_back(touched.Surface, index, this->FrameOf(index, RigidPose()));
+    if (touched.IsGripped)
+    {
+      continue;
+    }
+    ++this->Felt;
     if (touched.Surface->Deforms())
     {
       this->Deforming.push_back(index);
@@ -47,10 +51,12 @@ GodObject::Implementation::Implementation(std::vector<TouchedSurface> surfaces)
       }
     }
   }
+  this->Last = this->Felt;
 }
 
 void GodObject::Implementation::Place(const Vector& position)
 {
+  const bool isFirst = !this->IsPlaced;
   this->Position = position;
   this->IsPlaced = true;
   this->IsSplit = false;
@@ -61,9 +67,16 @@ void GodObject::Implementation::Place(const Vector& position)
   {
     this->TakePose(mover);
   }
-  for (WorkingSet& set : this->Sets)
+  for (std::size_t i = 0; i < this->Felt; ++i)
   {
-    set.Place(position);
+    this->Sets[i].Place(position);
+  }
+  for (std::size_t i = this->Felt; isFirst && i < this->Sets.size(); ++i)
+  {
+    const SurfaceMotion* const motion = this->Surfaces[i].Motion.get();
+    this->Sets[i].SetFrame(
+      this->FrameOf(static_cast<std::int32_t>(i), motion ? motion->Pose() : RigidPose()));
+    this->Sets[i].Place(position);
   }
 }
 

@@ -112,7 +112,10 @@ void GodObject::Implementation::StayInContact(const Implementation& previous)
   const bool isSameShape = std::equal(this->Surfaces.begin(), this->Surfaces.end(),
     previous.Surfaces.begin(), previous.Surfaces.end(),
     [](const TouchedSurface& a, const TouchedSurface& b)
-    { return (a.Surface == b.Surface || a.Surface->Follows(*b.Surface)) && a.Motion == b.Motion; });
+    {
+      return (a.Surface == b.Surface || a.Surface->Follows(*b.Surface)) && a.Motion == b.Motion &&
+        a.IsGripped == b.IsGripped;
+    });
   this->Result.Felt = Feel();
   if (!isSameShape || previous.Active.IsEmpty())
   {

@@ -42,6 +42,7 @@ public:
 
   std::vector<TouchedSurface> Surfaces;
   std::vector<WorkingSet> Sets; ///< one a surface
+  std::size_t Felt = 0;         ///< how many surfaces are; those that are gripped come after them
   Vector Origin{ 0 };           ///< of the scene frame, in the world
   Vector Position{ 0 };         ///< scene frame
   bool IsPlaced = false;
@@ -80,6 +81,11 @@ private:
   void TakePose(Mover& mover);
   const WorkingSet* FindPredecessor(
     std::int32_t surface, const Implementation& previous, bool& isSame) const;
+  bool IsGripped(std::int32_t surface) const
+  {
+    return static_cast<std::size_t>(surface) >= this->Felt;
+  }
+  void TakeFromHand(const Implementation& previous);
   bool MoveSurfaces(double dt);
   bool Step(double part);
   void StepApart();

@@ -45,8 +45,24 @@ const WorkingSet* GodObject::Implementation::FindPredecessor(
   return found;
 }
 
+/// A motion that nobody has followed while the hand carried its surface ends where that is now.
+void GodObject::Implementation::TakeFromHand(const Implementation& previous)
+{
+  for (const Mover& mover : this->Movers)
+  {
+    for (std::size_t i = previous.Felt; i < previous.Surfaces.size(); ++i)
+    {
+      if (previous.Surfaces[i].Motion.get() == mover.Motion)
+      {
+        mover.Motion->Advance(0.0);
+      }
+    }
+  }
+}
+
 bool GodObject::Implementation::Continue(const Implementation& previous)
 {
+  this->TakeFromHand(previous);
   this->Place(previous.Position + (previous.Origin - this->Origin));
   this->Budget.Triangles = LargestNumberOfTriangles;
   std::size_t same = 0;
@@ -57,26 +73,34 @@ bool GodObject::Implementation::Continue(const Implementation& previous)
     const auto index = static_cast<std::int32_t>(&set - this->Sets.data());
     bool isSame = false;
     const WorkingSet* const before = this->FindPredecessor(index, previous, isSame);
+    const auto surface =
+      before ? static_cast<std::int32_t>(before - previous.Sets.data()) : std::int32_t{ -1 };
     if (isSame)
     {
       set.Continue(*before);
-      ++same;
+      same += previous.IsGripped(surface) == this->IsGripped(index) ? 1 : 0;
     }
     else if (before)
     {
-      const auto surface = static_cast<std::int32_t>(before - previous.Sets.data());
+      if (previous.IsGripped(surface) &&
+        this->Surfaces[index].Motion == previous.Surfaces[surface].Motion)
+      {
+        set.Place(set.Frame().PointToScene(before->LocalPosition() +
+          (ToVector(before->Surface().Origin()) - ToVector(set.Surface().Origin()))));
+      }
       const ActivePlane* held = nullptr;
       for (int i = 0; i < previous.Active.SupportSize(); ++i)
       {
         const ActivePlane& plane = previous.Active.Support(i);
         held = plane.Facet.Surface == surface ? &plane : held;
       }
-      if (!set.Succeed(*before, held))
+      if (!set.Succeed(*before, held) && !this->IsGripped(index))
       {
         wish = set.Frame().PointToScene(set.LocalPosition());
       }
     }
-    isElsewhere = isElsewhere || set.LocalPosition() != set.Frame().PointToLocal(this->Position);
+    isElsewhere = isElsewhere ||
+      (!this->IsGripped(index) && set.LocalPosition() != set.Frame().PointToLocal(this->Position));
   }
   // All of them agree on one place, each by a motion that it certifies.
   ActivePlanes planes;
@@ -241,7 +265,7 @@ void GodObject::Implementation::StepApart()
     }
   }
   this->First = 0;
-  this->Last = this->Sets.size();
+  this->Last = this->Felt;
   this->Position = before;
 }
 
@@ -293,7 +317,7 @@ bool GodObject::Implementation::Join(const Vector& hip)
     }
   }
   bool isTogether = true;
-  for (std::size_t i = 0; i < this->Sets.size(); ++i)
+  for (std::size_t i = 0; i < this->Felt; ++i)
   {
     this->First = i;
     this->Last = i + 1;
@@ -306,7 +330,7 @@ bool GodObject::Implementation::Join(const Vector& hip)
       isTogether && this->Sets[i].LocalPosition() == this->Sets[i].Frame().PointToLocal(hip);
   }
   this->First = 0;
-  this->Last = this->Sets.size();
+  this->Last = this->Felt;
   this->Active.Clear();
   this->Position = hip;
   this->WaySize = 1;

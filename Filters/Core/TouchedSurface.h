@@ -34,6 +34,11 @@ struct TouchedSurface
   /// changes all at once, contact goes on from it to the next (GodObject::Continue()); 0, the
   /// default: a surface of its own that comes and goes.
   std::uint64_t Identity = 0;
+  /// The hand carries it: it is not felt, its motion is not followed, and the god-object keeps the
+  /// local point that it had when it was gripped. Let go of, contact goes on from that point, so
+  /// that the hand is on the side where it was. Default off. Surfaces that are gripped come last in
+  /// a god-object's list.
+  bool IsGripped = false;
 };
 }
 
