@@ -106,7 +106,18 @@ void SurfaceBuild::Bake(const TriangleSurface& local)
     longest = std::max(longest, std::hypot(m[axis], m[4 + axis], m[8 + axis]));
   }
   SurfaceOptions options;
-  options.TouchedSide = local.TouchedSide();
+  if (local.TouchedSide() != Side::Mixed)
+  {
+    options.TouchedSide = local.TouchedSide();
+  }
+  else
+  {
+    for (std::size_t i = 0; i < mesh.Triangles.size(); ++i)
+    {
+      const bool hasBack = local.TouchesBack(static_cast<std::int32_t>(i));
+      mesh.Sides.push_back(hasBack ? Side::Both : Side::Front);
+    }
+  }
   options.Engine = local.Engine().Kind();
   // The longest axis bounds how a gap grows up to a factor of sqrt(3).
   options.CrackWidth = this->Prepared->CrackWidth() * longest * std::sqrt(3.0);

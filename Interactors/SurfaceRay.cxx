@@ -100,11 +100,12 @@ std::optional<double> CastRay(
   std::optional<double> nearest;
   for (std::int32_t i = 0; i < found.Count; ++i)
   {
-    const Triangle& triangle = surface.Triangles()[static_cast<std::size_t>(candidates[i])];
+    const std::int32_t id = candidates[static_cast<std::size_t>(i)];
+    const Triangle& triangle = surface.Triangles()[static_cast<std::size_t>(id)];
     const auto corner = [&](int k) -> const Vec3&
     { return surface.Points()[static_cast<std::size_t>(triangle[k])]; };
     const std::optional<double> t =
-      Meet(local, direction, corner(0), corner(1), corner(2), surface.TouchedSide() == Side::Front);
+      Meet(local, direction, corner(0), corner(1), corner(2), !surface.TouchesBack(id));
     if (t && (!nearest || *t < *nearest))
     {
       nearest = t;

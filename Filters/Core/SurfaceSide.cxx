@@ -48,9 +48,9 @@ int SurfaceSide::Crossing(const Vector& from, const Vector& to, std::int32_t tri
   return isClean ? after : 2;
 }
 
-bool SurfaceSide::CountEnclosing(const Vector& x, int& winding)
+bool SurfaceSide::CountEnclosing(const Vector& x, Enclosed& enclosed)
 {
-  winding = 0;
+  enclosed = Enclosed();
   const double radius = this->Surface.Radius();
   if (glm::length(x) > radius)
   {
@@ -73,23 +73,27 @@ bool SurfaceSide::CountEnclosing(const Vector& x, int& winding)
       return false;
     }
     bool isClean = true;
-    int crossings = 0;
+    Enclosed crossings;
     for (std::int32_t k = 0; k < found.Count && isClean; ++k)
     {
-      const int crossing = this->Crossing(x, to, found.Indices[k]);
-      isClean = crossing != 2;
-      crossings += crossing;
+      const Encloser kind = this->Surface.EncloserOf(found.Indices[k]);
+      if (kind != Encloser::None)
+      {
+        const int crossing = this->Crossing(x, to, found.Indices[k]);
+        isClean = crossing != 2;
+        (kind == Encloser::Front ? crossings.Front : crossings.Both) += crossing;
+      }
     }
     if (isClean)
     {
-      winding = crossings;
+      enclosed = crossings;
       return true;
     }
   }
   return false;
 }
 
-bool SurfaceSide::FindNearest(const Vector& x, Vector& nearest, Vector& normal, bool& isOnRim)
+bool SurfaceSide::FindNearest(const Vector& x, const Encloser* kind, SurfacePlace& nearest)
 {
   const double surfaceRadius = this->Surface.Radius();
   if (glm::length(x) > 1.5 * surfaceRadius)
@@ -114,6 +118,10 @@ bool SurfaceSide::FindNearest(const Vector& x, Vector& nearest, Vector& normal, 
       for (std::int32_t k = 0; k < found.Count; ++k)
       {
         const std::int32_t id = found.Indices[k];
+        if (kind && this->Surface.EncloserOf(id) != *kind)
+        {
+          continue;
+        }
         const auto [a, b, c] = this->CornersOf(id);
         const Facet facet(a, b, c);
         if (!facet.HasArea())
@@ -132,15 +140,13 @@ bool SurfaceSide::FindNearest(const Vector& x, Vector& nearest, Vector& normal, 
         if (distance <= best * (1.0 + Tie) && cosine > facing)
         {
           facing = cosine;
-          nearest = x + way;
-          normal = facet.Normal;
-          isOnRim = false;
+          nearest = { x + way, facet.Normal, id, false };
           for (int k3 = 0; k3 < 3; ++k3)
           {
             const Vector& from = facet.Corner[k3];
             const Vector edge = facet.Corner[(k3 + 1) % 3] - from;
-            const double off = glm::length(glm::cross(edge, nearest - from));
-            isOnRim = isOnRim ||
+            const double off = glm::length(glm::cross(edge, nearest.Point - from));
+            nearest.IsOnRim = nearest.IsOnRim ||
               (this->Surface.AdjacentTriangles()[id][k3] == BoundaryEdge &&
                 off <= Tie * SquaredLength(edge));
           }

@@ -8,6 +8,22 @@
 
 namespace haptics
 {
+/// How often a point is enclosed: 1 inside a solid, 0 outside.
+struct Enclosed
+{
+  int Front = 0; ///< by what is counted as Encloser::Front
+  int Both = 0;  ///< by what is counted as Encloser::Both
+};
+
+/// A place of a surface.
+struct SurfacePlace
+{
+  Vector Point{ 0 };
+  Vector Normal{ 0 };         ///< of the facet there that faces the asker most
+  std::int32_t Triangle = -1; ///< of which it is
+  bool IsOnRim = false;       ///< at the border of an open surface
+};
+
 /// @brief On which side of a whole surface a point is, and the nearest way to the other.
 ///
 /// What is asked when a surface has changed all at once, so that no motion tells. Local frame of
@@ -19,13 +35,13 @@ public:
   /// `scratch`: a list to work with, whose capacity bounds the work.
   SurfaceSide(const TriangleSurface& surface, double fraction, TriangleList scratch);
 
-  /// How often a closed oriented surface encloses the point: 1 inside a solid, 0 outside. Exact, by
-  /// the crossings of a ray. False where it cannot be told: too many triangles in the way.
-  bool CountEnclosing(const Vector& x, int& winding);
+  /// How often the triangles that enclose space do so with the point. Exact, by the crossings of a
+  /// ray. False where it cannot be told: too many triangles in the way.
+  bool CountEnclosing(const Vector& x, Enclosed& enclosed);
 
-  /// The nearest point of the surface, and the normal of the facet there that faces it most.
-  /// `isOnRim`: at the border of an open surface. False where there is none within reach.
-  bool FindNearest(const Vector& x, Vector& nearest, Vector& normal, bool& isOnRim);
+  /// The nearest place of the triangles that enclose in one way, or of all where `kind` is null.
+  /// False where there is none within reach.
+  bool FindNearest(const Vector& x, const Encloser* kind, SurfacePlace& nearest);
 
 private:
   struct Corners

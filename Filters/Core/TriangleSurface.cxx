@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 
 namespace haptics
 {
@@ -21,6 +22,16 @@ std::string FindFault(const TriangleMesh& mesh, const SurfaceOptions& options)
   if (!std::isfinite(options.CrackWidth) || options.CrackWidth < 0.0)
   {
     return "the crack width must be finite and not negative";
+  }
+  if (!mesh.Sides.empty() && mesh.Sides.size() != mesh.Triangles.size())
+  {
+    return std::to_string(mesh.Sides.size()) + " sides were given for " +
+      std::to_string(mesh.Triangles.size()) + " triangles";
+  }
+  const auto isMixed = [](Side side) { return side == Side::Mixed; };
+  if (isMixed(options.TouchedSide) || std::any_of(mesh.Sides.begin(), mesh.Sides.end(), isMixed))
+  {
+    return "the side to touch must be Front, Both or Automatic";
   }
   for (std::size_t i = 0; i < mesh.Points.size(); ++i)
   {
@@ -68,6 +79,50 @@ double Recentre(TriangleMesh& mesh, Vec3& origin)
   }
   return 0.5 * glm::length(high - low) * (1.0 + 0x1p-40);
 }
+
+/// Whether these triangles alone are a surface that encloses space.
+bool Enclose(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles)
+{
+  Neighbours neighbours;
+  const SurfaceReport found = AnalyseSurface(points, triangles, neighbours);
+  return found.Closed && found.Oriented;
+}
+}
+
+Side TriangleSurface::ChooseSides(
+  const std::vector<Vec3>& points, std::vector<Side> asked, Side forAll, Topology& topology)
+{
+  const SurfaceReport& found = topology.Found;
+  Enclosure& encloses = topology.Encloses;
+  const bool isClosed = found.Closed && found.Oriented;
+  const Side automatic = isClosed && found.InsideOutComponents == 0 ? Side::Front : Side::Both;
+  std::replace(asked.begin(), asked.end(), Side::Automatic, automatic);
+  if (std::adjacent_find(asked.begin(), asked.end(), std::not_equal_to<>()) == asked.end())
+  {
+    const Side side = !asked.empty() ? asked.front()
+      : forAll == Side::Automatic    ? automatic
+                                     : forAll;
+    encloses.Fronts = isClosed && side == Side::Front ? Encloser::Front : Encloser::None;
+    encloses.Boths = isClosed && side == Side::Both ? Encloser::Both : Encloser::None;
+    return side;
+  }
+  std::vector<Triangle> fronts;
+  std::vector<Triangle> boths;
+  topology.HasBack.reserve(asked.size());
+  for (std::size_t i = 0; i < asked.size(); ++i)
+  {
+    const bool hasBack = asked[i] == Side::Both;
+    topology.HasBack.push_back(hasBack);
+    (hasBack ? boths : fronts).push_back(topology.Triangles[i]);
+  }
+  encloses.Fronts = Enclose(points, fronts) ? Encloser::Front : Encloser::None;
+  encloses.Boths = Enclose(points, boths) ? Encloser::Both : Encloser::None;
+  if (isClosed && encloses == Enclosure())
+  {
+    // A solid some of whose walls hold what is inside: through the others it can leave.
+    encloses.Fronts = encloses.Boths = Encloser::Front;
+  }
+  return Side::Mixed;
 }
 
 TriangleSurface::TriangleSurface()
@@ -135,13 +190,8 @@ std::shared_ptr<const TriangleSurface> TriangleSurface::Build(
     return nullptr;
   }
   topology->Found = AnalyseSurface(surface->Points(), topology->Triangles, topology->Adjacent);
-  surface->Touched = options.TouchedSide;
-  if (surface->Touched == Side::Automatic)
-  {
-    const SurfaceReport& found = surface->Report();
-    surface->Touched =
-      found.Closed && found.Oriented && found.InsideOutComponents == 0 ? Side::Front : Side::Both;
-  }
+  surface->Touched =
+    ChooseSides(surface->Points(), std::move(mesh.Sides), options.TouchedSide, *topology);
   surface->Collision = MakeEngine(options.Engine, surface->Input(false));
   if (!surface->Collision)
   {
@@ -160,6 +210,6 @@ std::size_t TriangleSurface::MemoryBytes() const
   return sizeof(*this) + (this->Deforms() ? 2 : 1) * this->Points().capacity() * sizeof(Vec3) +
     this->Triangles().capacity() * sizeof(Triangle) +
     this->AdjacentTriangles().capacity() * sizeof(Neighbours::value_type) +
-    this->Collision->MemoryBytes();
+    this->Shared->HasBack.capacity() + this->Collision->MemoryBytes();
 }
 }

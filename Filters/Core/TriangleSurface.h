@@ -18,9 +18,10 @@ namespace haptics
 /// Which side of a triangle can be touched.
 enum class Side
 {
-  Front,    ///< the side its normal points to: the paper's one-sided surfaces
-  Both,     ///< no path crosses any triangle, from either side
-  Automatic ///< Front where the surface is closed, oriented and not inside out; Both elsewhere
+  Front,     ///< the side its normal points to: the paper's one-sided surfaces
+  Both,      ///< no path crosses any triangle, from either side
+  Automatic, ///< Front where the surface is closed, oriented and not inside out; Both elsewhere
+  Mixed      ///< told of a surface whose triangles differ; not to be asked for
 };
 
 /// Corner indices into the points, counter-clockwise as seen from the front.
@@ -31,6 +32,18 @@ struct TriangleMesh
 {
   std::vector<Vec3> Points;        ///< world frame, any unit
   std::vector<Triangle> Triangles; ///< one without area, or under 1e-160, is never touched
+  /// The side of each triangle where they differ; empty: SurfaceOptions::TouchedSide for all.
+  /// Automatic is what it comes to for the surface as a whole.
+  std::vector<Side> Sides = {};
+};
+
+/// How a triangle encloses space together with others, so that to be inside is a matter of
+/// counting.
+enum class Encloser
+{
+  None,
+  Front, ///< what is inside may leave, and not come back
+  Both   ///< what is inside stays there
 };
 
 struct SurfaceOptions
@@ -53,8 +66,8 @@ class VTKHAPTICSCORE_EXPORT TriangleSurface
 {
 public:
   /// Builds a snapshot, or returns null and says in `error` what is wrong and where: no triangle,
-  /// no triangle with an area, a corner index out of range, a coordinate that is not finite, an
-  /// engine that this build does not have.
+  /// no triangle with an area, a corner index out of range, a coordinate that is not finite, sides
+  /// that are not as many as the triangles, an engine that this build does not have.
   static std::shared_ptr<const TriangleSurface> Build(
     TriangleMesh mesh, const SurfaceOptions& options, std::string& error);
   ~TriangleSurface();
@@ -75,8 +88,31 @@ public:
   /// a coordinate, or a quarter of the crack width, whichever is more.
   double Clearance() const { return this->MinimumClearance; }
 
-  /// Front or Both: what Automatic came to.
+  /// Front, Both or Mixed: what was asked for came to.
   Side TouchedSide() const { return this->Touched; }
+  /// Whether a triangle is touched from its back too.
+  bool TouchesBack(std::int32_t triangle) const
+  {
+    return this->Touched == Side::Mixed ? this->Shared->HasBack[triangle] != 0
+                                        : this->Touched == Side::Both;
+  }
+  /// What the triangles enclose: those whose fronts only are touched, and the others.
+  struct Enclosure
+  {
+    Encloser Fronts = Encloser::None;
+    Encloser Boths = Encloser::None;
+
+    bool operator==(const Enclosure& other) const
+    {
+      return this->Fronts == other.Fronts && this->Boths == other.Boths;
+    }
+  };
+  const Enclosure& Enclosing() const { return this->Shared->Encloses; }
+  Encloser EncloserOf(std::int32_t triangle) const
+  {
+    const Enclosure& all = this->Enclosing();
+    return this->TouchesBack(triangle) ? all.Boths : all.Fronts;
+  }
   /// Of the surface as it was built.
   const SurfaceReport& Report() const { return this->Shared->Found; }
   const CollisionEngine& Engine() const { return *this->Collision; }
@@ -122,7 +158,13 @@ private:
     std::vector<Triangle> Triangles;
     Neighbours Adjacent;
     SurfaceReport Found;
+    std::vector<std::uint8_t> HasBack; ///< for each triangle; empty where all have the same side
+    Enclosure Encloses;
   };
+
+  /// What the sides asked for come to, and what encloses by them.
+  static Side ChooseSides(
+    const std::vector<Vec3>& points, std::vector<Side> asked, Side forAll, Topology& topology);
 
   /// Works out radius, longest edge and clearance; `start`: what it deforms from, or null. False
   /// where no triangle has an area.

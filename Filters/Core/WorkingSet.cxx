@@ -165,13 +165,13 @@ bool WorkingSet::FindFirstHit(
 
 Growth WorkingSet::GrowthOf(std::int32_t triangle, double clearance, double wayError) const
 {
-  const bool hasBacks = this->Touched->TouchedSide() == Side::Both;
+  const bool hasBack = this->Touched->TouchesBack(triangle);
   Growth growth;
   for (int k = 0; k < 3; ++k)
   {
     const bool isShared = this->Touched->AdjacentTriangles()[triangle][k] != BoundaryEdge;
     growth[k] =
-      (hasBacks && isShared ? GrowthSeenFromBehind : GrowthOverGaps) * clearance + wayError;
+      (hasBack && isShared ? GrowthSeenFromBehind : GrowthOverGaps) * clearance + wayError;
   }
   return growth;
 }
@@ -207,12 +207,16 @@ void WorkingSet::MeasureTarget(const Vector& to)
 
 void WorkingSet::TurnToPosition()
 {
-  if (this->Touched->TouchedSide() != Side::Both)
+  if (this->Touched->TouchedSide() == Side::Front)
   {
     return;
   }
   for (std::int32_t i = 0; i < this->Count; ++i)
   {
+    if (this->Distance[i] > this->Error[i] || !this->Touched->TouchesBack(this->Triangles[i]))
+    {
+      continue;
+    }
     bool isBehind = this->Distance[i] < 0.0;
     if (std::abs(this->Distance[i]) <= this->Error[i])
     {

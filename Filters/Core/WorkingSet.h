@@ -149,8 +149,8 @@ private:
     return { ToVector(points[corners[0]]), ToVector(points[corners[1]]),
       ToVector(points[corners[2]]) };
   }
-  bool PlaceBack(const Vector& nearest, const Vector& normal, int enclosed);
-  bool PlaceOff(const Vector& nearest, const Vector& outwards, const int* enclosed);
+  bool PlaceBack(const Enclosed& before, const Enclosed& now);
+  bool PlaceOff(const Vector& nearest, const Vector& outwards, const Enclosed* enclosed);
   SurfaceSide SideOf(const TriangleSurface& surface, double fraction);
   bool IsSweeping() const { return this->Next != this->Now; }
   bool GatherSwept(const Vector& to, WorkBudget& budget);

@@ -71,7 +71,7 @@ bool WorkingSet::Sweeps(std::int32_t triangle, const Vector& to, FacetHit& hit) 
   swept.To = { a1 - to, b1 - to, c1 - to };
   // 16 roundings of a coordinate: of the differences above, and of times that are halved.
   swept.Slack = this->MinimumClearance / 64.0;
-  swept.IsOneSided = this->Touched->TouchedSide() == Side::Front;
+  swept.IsOneSided = !this->Touched->TouchesBack(triangle);
   const double time = swept.TimeOfContact();
   if (time >= 1.0 || time > hit.Fraction)
   {

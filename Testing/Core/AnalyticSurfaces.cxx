@@ -253,7 +253,25 @@ TriangleMesh Joined(TriangleMesh first, const TriangleMesh& second)
   {
     first.Triangles.push_back({ a + offset, b + offset, c + offset });
   }
+  first.Sides.insert(first.Sides.end(), second.Sides.begin(), second.Sides.end());
   return first;
+}
+
+TriangleMesh Sided(TriangleMesh mesh, Side side)
+{
+  mesh.Sides.assign(mesh.Triangles.size(), side);
+  return mesh;
+}
+
+TriangleMesh SidedAtRandom(TriangleMesh mesh, unsigned seed)
+{
+  std::mt19937 random(seed);
+  mesh.Sides.clear();
+  for (std::size_t i = 0; i < mesh.Triangles.size(); ++i)
+  {
+    mesh.Sides.push_back(random() % 2 == 0 ? Side::Front : Side::Both);
+  }
+  return mesh;
 }
 
 std::shared_ptr<const TriangleSurface> MakeSurface(TriangleMesh mesh, Side side, EngineKind engine)

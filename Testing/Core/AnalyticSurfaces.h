@@ -30,7 +30,12 @@ TriangleMesh Soup(int count, double size, unsigned seed);
 TriangleMesh InsideOut(TriangleMesh mesh);
 TriangleMesh Moved(TriangleMesh mesh, const Vec3& by);
 TriangleMesh Scaled(TriangleMesh mesh, double factor);
+/// Of two meshes with a side for each triangle, or of two without.
 TriangleMesh Joined(TriangleMesh first, const TriangleMesh& second);
+/// All triangles with one side.
+TriangleMesh Sided(TriangleMesh mesh, Side side);
+/// Each triangle with Front or Both, by chance.
+TriangleMesh SidedAtRandom(TriangleMesh mesh, unsigned seed);
 
 /// Builds a surface and fails the running test when that fails.
 std::shared_ptr<const TriangleSurface> MakeSurface(

@@ -75,7 +75,8 @@ bool ExactQueries::VisitBoxes(const Bounds& box, const Visitor& visit) const
     {
       const auto& [a, b1, c] = this->Surface->Triangles()[i];
       const auto& points = this->Points;
-      if (visit(ToPoint(points[a]), ToPoint(points[b1]), ToPoint(points[c])))
+      if (visit(ToPoint(points[a]), ToPoint(points[b1]), ToPoint(points[c]),
+            static_cast<std::int32_t>(i)))
       {
         return true;
       }
@@ -94,12 +95,12 @@ bool ExactQueries::Crosses(const Vec3& from, const Vec3& to) const
     box.Low[k] = std::min(from[k], to[k]);
     box.High[k] = std::max(from[k], to[k]);
   }
-  const bool both = this->Surface->TouchedSide() == haptics::Side::Both;
   return this->VisitBoxes(box,
-    [&](const Point& a, const Point& b, const Point& c)
+    [&](const Point& a, const Point& b, const Point& c, std::int32_t triangle)
     {
       const int before = Side(a, b, c, p);
       const int after = Side(a, b, c, q);
+      const bool both = this->Surface->TouchesBack(triangle);
       // Where both sides are touched, a point comes onto a triangle only within its plane, around
       // its rim, and may leave to either side.
       const bool changesSide =
@@ -126,7 +127,7 @@ bool ExactQueries::IsInside(const Vec3& point) const
     }
     int crossings = 0;
     const bool isDegenerate = this->VisitBoxes(box,
-      [&](const Point& a, const Point& b, const Point& c)
+      [&](const Point& a, const Point& b, const Point& c, std::int32_t)
       {
         const int before = Side(a, b, c, p);
         const int after = Side(a, b, c, q);

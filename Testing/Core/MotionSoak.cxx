@@ -62,6 +62,8 @@ const std::vector<Scene>& AllScenes()
     { "ball that shakes", { { Ball, Side::Front, 0.0, 0.6 } } },
     { "star that waves", { { [] { return Star(3, 0.03, 0.4, 3); }, Side::Front, 0.0, 0.2 } } },
     { "waves from both sides", { { Ball, Side::Both, 0.0, 0.2 } } },
+    { "star of sides by chance that waves",
+      { { [] { return SidedAtRandom(Star(3, 0.03, 0.4, 3), 1); }, Side::Automatic, 0.3, 0.2 } } },
     { "waves that drift", { { Ball, Side::Front, 0.5, 0.2 } } },
     { "inside of a ball that waves",
       { { [] { return InsideOut(Icosphere(3, 0.03)); }, Side::Front, 0.1, 0.2 } } },

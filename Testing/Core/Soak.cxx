@@ -36,6 +36,11 @@ TriangleMesh Nested()
   return sheets;
 }
 
+TriangleMesh FrontAndBoth(const TriangleMesh& fronts, const TriangleMesh& boths)
+{
+  return Joined(Sided(fronts, Side::Front), Sided(boths, Side::Both));
+}
+
 TriangleMesh SharedEdgeBoxes()
 {
   // Two boxes with one edge in common: four triangles on it.
@@ -81,6 +86,29 @@ const std::vector<Scene>& AllScenes()
     { "nested sheets", Nested, Side::Front, 0.03 },
     { "nested sheets from both sides", Nested, Side::Both, 0.03 },
     { "boxes sharing an edge", SharedEdgeBoxes, Side::Both, 0.03 },
+    { "star of sides by chance", [] { return SidedAtRandom(Star(3, 0.04, 0.4, 3), 1); },
+      Side::Automatic, 0.04 },
+    { "soup of sides by chance", [] { return SidedAtRandom(Scaled(Soup(400, 0.4, 7), 0.03), 2); },
+      Side::Automatic, 0.04 },
+    { "sheet through a solid",
+      [] { return FrontAndBoth(Box(0.02, 0.02, 0.02, 4), Square(0.03, 4)); }, Side::Automatic,
+      0.03 },
+    { "sheets in and on a ball",
+      []
+      {
+        return FrontAndBoth(
+          Icosphere(3, 0.02), Joined(Square(0.012, 2), Moved(Square(0.03, 2), { 0, 0, 0.02 })));
+      },
+      Side::Automatic, 0.03 },
+    { "solid and walls at an edge",
+      []
+      {
+        TriangleMesh mesh = SharedEdgeBoxes();
+        mesh.Sides.assign(mesh.Triangles.size(), Side::Both);
+        std::fill(mesh.Sides.begin(), mesh.Sides.begin() + mesh.Sides.size() / 2, Side::Front);
+        return mesh;
+      },
+      Side::Automatic, 0.03 },
     { "soup", [] { return Scaled(Soup(400, 0.4, 7), 0.03); }, Side::Both, 0.04 },
     { "slivers", [] { return Scaled(Icosphere(3, 1.0), 0.03); }, Side::Front, 0.03 },
   };
