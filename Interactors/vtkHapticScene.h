@@ -113,7 +113,8 @@ public:
   ///@{
   /**
    * Removes a surface, or a whole assembly. False where it is not in the scene, or only a part of
-   * an assembly: hide that. Takes effect at the next Update().
+   * an assembly: hide that. Takes effect at the next Update(); what comes or goes while a surface is
+   * on its way to other points waits for that, 0.1 s at most.
    */
   bool RemoveSurface(int id);
   bool RemoveSurface(vtkActor* actor);
