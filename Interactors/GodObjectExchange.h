@@ -43,6 +43,11 @@ public:
   /// that one's surfaces no longer deform (GodObject::HasArrived(), within a second).
   /// Never null. Servo thread.
   NumberedGodObject& Take() noexcept;
+  /// Whether another one waits for that. Servo thread.
+  bool HasNext() const noexcept
+  {
+    return this->Incoming.load(std::memory_order_relaxed) != nullptr;
+  }
 
 private:
   // Between two calls of Collect() in Publish() the servo can retire two: the one that it had when

@@ -74,7 +74,7 @@ bool ServoCycle::Tick(double time) noexcept
     this->Guard.Restart(settings.Safety);
     period = settings.Safety.NominalPeriod;
   }
-  god.Object->Advance(period);
+  god.Object->Advance(period, this->Exchange.HasNext());
   if (this->NoticeJumps(god, settings))
   {
     god.Object->Place(hip);

@@ -276,9 +276,9 @@ bool GodObject::Continue(const GodObject& previous) noexcept
   return isSeamless && this->Internal->FeelsAs(*previous.Internal);
 }
 
-void GodObject::Advance(double dt) noexcept
+void GodObject::Advance(double dt, bool isAwaited) noexcept
 {
-  this->Internal->Advance(dt);
+  this->Internal->Advance(dt, isAwaited ? Haste : 1.0);
 }
 
 bool GodObject::HasArrived() const noexcept

@@ -101,9 +101,12 @@ public:
   /// it was on: outside a solid that it now is in, or, of an open surface, where it was held, in
   /// front of what held it. True where nothing has changed at once. Servo thread.
   bool Continue(const GodObject& previous) noexcept;
-  /// Takes all motions on by `dt` [s], and the god-object with them. Servo thread, before Update();
-  /// no allocation, no lock, bounded work; nothing where no surface can move.
-  void Advance(double dt) noexcept;
+  /// Takes all motions on by `dt` [s], and the god-object with them. `isAwaited`: the next one
+  /// waits for HasArrived(), so what deforms goes faster by Haste, and a source that is not quite
+  /// regular is followed without leaving a shape out. Servo thread, before Update(); no allocation,
+  /// no lock, bounded work; nothing where no surface can move.
+  void Advance(double dt, bool isAwaited = false) noexcept;
+  static constexpr double Haste = 1.25;
   /// Whether no surface deforms any more: then the next snapshots may follow. Servo thread.
   bool HasArrived() const noexcept;
   /// Moves the god-object towards the HIP, to where the surfaces let it go. Servo thread; no

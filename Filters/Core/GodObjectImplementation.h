@@ -33,7 +33,7 @@ public:
 
   void Place(const Vector& position);
   bool Continue(const Implementation& previous);
-  void Advance(double dt);
+  void Advance(double dt, double haste);
   bool HasArrived() const;
   void Update(const Vector& hip);
   void UpdateFeel();
@@ -86,7 +86,7 @@ private:
     return static_cast<std::size_t>(surface) >= this->Felt;
   }
   void TakeFromHand(const Implementation& previous);
-  bool MoveSurfaces(double dt);
+  bool MoveSurfaces(double dt, double haste);
   bool Step(double part);
   void StepApart();
   bool MoveAll(const Vector& wish, ActivePlanes& planes);

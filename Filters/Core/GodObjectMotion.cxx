@@ -118,9 +118,9 @@ bool GodObject::Implementation::HasArrived() const
     [this](std::int32_t i) { return this->Sets[i].Fraction() >= 1.0; });
 }
 
-void GodObject::Implementation::Advance(double dt)
+void GodObject::Implementation::Advance(double dt, double haste)
 {
-  if ((this->Movers.empty() && this->Deforming.empty()) || !this->MoveSurfaces(dt))
+  if ((this->Movers.empty() && this->Deforming.empty()) || !this->MoveSurfaces(dt, haste))
   {
     return;
   }
@@ -155,7 +155,7 @@ void GodObject::Implementation::Advance(double dt)
 }
 
 /// Takes all motions and deformations on. True where a surface is elsewhere now than its set.
-bool GodObject::Implementation::MoveSurfaces(double dt)
+bool GodObject::Implementation::MoveSurfaces(double dt, double haste)
 {
   for (SurfaceMotion* motion : this->Motions)
   {
@@ -178,7 +178,7 @@ bool GodObject::Implementation::MoveSurfaces(double dt)
   for (const std::int32_t i : this->Deforming)
   {
     isMoving = isMoving || this->Sets[i].Fraction() < 1.0;
-    this->Sets[i].BeginTick(dt);
+    this->Sets[i].BeginTick(haste * dt);
   }
   return isMoving;
 }

@@ -157,6 +157,31 @@ bool SurfaceDeformer::Fit(Engine& engine, const EngineInput& input)
 std::shared_ptr<const TriangleSurface> SurfaceDeformer::Deform(
   std::vector<Vec3> points, double duration, std::string& error)
 {
+  return this->Make(std::move(points), duration, true, error);
+}
+
+std::shared_ptr<const TriangleSurface> SurfaceDeformer::Replace(
+  std::vector<Vec3> points, std::string& error)
+{
+  return this->Make(std::move(points), 0.0, false, error);
+}
+
+double SurfaceDeformer::LongestWay(const std::vector<Vec3>& points) const
+{
+  const std::vector<Vec3>& from = this->Current->Points();
+  const Vector origin = ToVector(this->Current->Origin());
+  double squared = 0.0;
+  for (std::size_t i = 0; i < points.size() && points.size() == from.size(); ++i)
+  {
+    squared = std::max(squared, SquaredLength(ToVector(points[i]) - origin - ToVector(from[i])));
+  }
+  return std::sqrt(squared);
+}
+
+/// `follows`: from where the latest snapshot ends; else in its place.
+std::shared_ptr<const TriangleSurface> SurfaceDeformer::Make(
+  std::vector<Vec3> points, double duration, bool follows, std::string& error)
+{
   error = FindFault(points, duration, *this->Current);
   if (!error.empty())
   {
@@ -168,9 +193,12 @@ std::shared_ptr<const TriangleSurface> SurfaceDeformer::Deform(
   next->Shared = from.Shared;
   next->CrackWidth = from.CrackWidth;
   next->Touched = from.Touched;
-  next->Duration = duration;
-  next->Predecessor = from.Number;
-  next->Start = from.LocalPoints;
+  if (follows)
+  {
+    next->Duration = duration;
+    next->Predecessor = from.Number;
+    next->Start = from.LocalPoints;
+  }
   const Vector origin = ToVector(from.SurfaceOrigin);
   for (Vec3& p : points)
   {

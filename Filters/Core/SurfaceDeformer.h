@@ -23,7 +23,7 @@ namespace haptics
 ///
 /// An engine is refitted to where triangles pass, in a few milliseconds for 100,000 of them, and
 /// built anew where it has lost its order. Engines of snapshots that nobody holds any more are used
-/// again, so two or three are made in all.
+/// again, so two are made in all, or three where those are deleted late.
 ///
 /// One thread at a time.
 class VTKHAPTICSCORE_EXPORT SurfaceDeformer
@@ -40,6 +40,12 @@ public:
   /// in `error`, where that cannot be: then the latest snapshot stays.
   std::shared_ptr<const TriangleSurface> Deform(
     std::vector<Vec3> points, double duration, std::string& error);
+  /// As Deform(), but the points have not moved there: the next snapshot is another surface that
+  /// takes the place of the one before.
+  std::shared_ptr<const TriangleSurface> Replace(std::vector<Vec3> points, std::string& error);
+  /// The longest way of a point from what the next snapshot starts from to `points`, as in Deform()
+  /// [world unit]. Where their numbers differ, and so it cannot be told: 0.
+  double LongestWay(const std::vector<Vec3>& points) const;
 
   /// What the next snapshot will start from.
   const std::shared_ptr<const TriangleSurface>& Latest() const { return this->Current; }
@@ -49,6 +55,8 @@ public:
 
 private:
   struct Engine;
+  std::shared_ptr<const TriangleSurface> Make(
+    std::vector<Vec3> points, double duration, bool follows, std::string& error);
   std::shared_ptr<Engine> Borrow();
   bool Fit(Engine& engine, const EngineInput& input);
 

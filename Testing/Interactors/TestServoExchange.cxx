@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <random>
 #include <thread>
 
 using haptics::GodObjectExchange;
@@ -77,6 +80,45 @@ TEST(GodObjectExchange, WaitsUntilWhatDeformsHasArrived)
   }
   EXPECT_EQ(exchange.Take().Generation, 3u);
   EXPECT_FALSE(exchange.Take().IsSeamless) << "another plane";
+}
+
+// A source that gives 60 shapes a second, up to 3 ms early or late: each is taken before the next
+// is there, though ticks of a millisecond do not divide the time between two.
+TEST(GodObjectExchange, FollowsADeformingSourceWithoutLeavingAShapeOut)
+{
+  const auto plane = MakePlane();
+  haptics::SurfaceDeformer deformer(plane);
+  GodObjectExchange exchange;
+  exchange.Publish(MakeGodObject(plane));
+  exchange.Take().Object->Update({ 0.0, 0.0, 0.1 });
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> jitter(-0.003, 0.003);
+  std::uint64_t published = 1;
+  double due = 0.0;
+  double last = 0.0;
+  for (int tick = 0; tick < 10000; ++tick)
+  {
+    const double time = 0.001 * tick;
+    if (time >= due)
+    {
+      ASSERT_EQ(exchange.Take().Generation, published) << "at " << time << " s";
+      std::vector<haptics::Vec3> points = plane->Points();
+      for (haptics::Vec3& p : points)
+      {
+        p[2] += 0.001 * std::sin(6.0 * time);
+      }
+      std::string error;
+      const auto next = deformer.Deform(points, std::min(time - last, 0.1), error);
+      ASSERT_TRUE(next) << error;
+      published = exchange.Publish(MakeGodObject(next));
+      last = time;
+      due = (std::floor(60.0 * time + 0.5) + 1.0) / 60.0 + jitter(random);
+    }
+    haptics::NumberedGodObject& god = exchange.Take();
+    god.Object->Advance(0.001, exchange.HasNext());
+    god.Object->Update({ 0.0, 0.0, 0.1 });
+  }
+  EXPECT_NEAR(static_cast<double>(published), 601.0, 2.0);
 }
 
 TEST(GodObjectExchange, DeletesAllThatItHoldsAtItsEnd)
