@@ -3,6 +3,7 @@
 
 #include "BackgroundWorker.h"
 #include "HapticAssembly.h"
+#include "HapticGrip.h"
 #include "SceneEvents.h"
 #include "SurfaceSet.h"
 #include "TickRecord.h"
@@ -34,6 +35,7 @@ public:
   bool Clutched = false;
   bool ClutchMoved = false; ///< what is touched has to be published anew
   bool ClutchHeld = false;  ///< the device's button
+  haptics::HapticGrip Grip;
   vtkMTimeType LandmarksShown = 0;
   double LiftOff[3] = {};                   ///< from the hand to where it comes back [world unit]
   std::vector<haptics::TickRecord> Drained; // kept for its memory

@@ -9,6 +9,7 @@
 #include "vtkGodObjectFilter.h"
 #include "vtkIdTypeArray.h"
 #include "vtkMapper.h"
+#include "vtkMatrix4x4.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
@@ -159,11 +160,15 @@ void HapticSurface::Follow(const PullSettings& settings, std::string& error)
   const Matrix4 matrix = this->CurrentMatrix();
   const bool hasMoved = !AreSame(matrix, this->LastMatrix);
   this->LastMatrix = matrix;
+  // Where it is let go of, and not where it was before, is where it is felt again.
+  const bool isCarried = std::exchange(this->Carried, this->Carried && this->Gripped);
   if (hasMoved && this->InForce)
   {
-    this->NeedsBaking = !this->FollowMatrix(settings, error);
+    PullSettings moving = settings;
+    moving.IsLive = settings.IsLive && !isCarried;
+    this->NeedsBaking = !this->FollowMatrix(moving, error);
   }
-  if (!wasShown && this->Moving)
+  if ((!wasShown || isCarried) && this->Moving)
   {
     this->Moving->JumpTo(this->Placed); // what moved unseen must not push the hand now
   }
@@ -382,6 +387,17 @@ void HapticSurface::TakeBuild(const PullSettings& settings, std::string& error)
                                 : nullptr;
     this->LastMoved = settings.Now;
   }
+}
+
+Vec3 HapticSurface::PointInActor(const Vec3& point) const
+{
+  if (this->Baked == IdentityMatrix)
+  {
+    return point;
+  }
+  Matrix4 inverse;
+  vtkMatrix4x4::Invert(this->Baked.data(), inverse.data());
+  return Transformed(inverse, point);
 }
 
 void HapticSurface::CancelBuild()

@@ -84,6 +84,16 @@ public:
   /// Gives up the build: what is in force stays until the geometry changes again.
   void CancelBuild();
 
+  ///@{
+  /// Whether the hand carries it; then it is not felt.
+  void SetGripped(bool isGripped) { this->Gripped = isGripped; }
+  bool IsGripped() const { return this->Gripped; }
+  ///@}
+  /// The hand has it: till it is let go of it is in its new place at once, and pushes nothing.
+  void Carry() { this->Carried = true; }
+  /// A point of the frame that Pose() moves, in that of the actor's geometry.
+  Vec3 PointInActor(const Vec3& point) const;
+
   /// Whether the last Pull() found it in another place.
   bool HasMoved() const { return this->IsElsewhere; }
   /// Where the snapshot's frame is in the world, as of the last Pull(). The servo gets there later,
@@ -141,6 +151,8 @@ private:
   vtkSmartPointer<vtkAlgorithmOutput> Geometry;
   vtkNew<vtkGodObjectFilter> Preparation;
   bool Shown = true;
+  bool Gripped = false;
+  bool Carried = false;
   bool Tried = false;
   Version LastTried;
   Matrix4 LastMatrix = IdentityMatrix;

@@ -51,6 +51,16 @@ HapticSurface* SurfaceSet::Find(vtkActor* actor) const
   return nullptr;
 }
 
+void SurfaceSet::SetGripped(int id, bool isGripped)
+{
+  HapticSurface* const surface = this->Find(id);
+  if (surface && surface->IsGripped() != isGripped)
+  {
+    surface->SetGripped(isGripped);
+    this->Changed = true;
+  }
+}
+
 bool SurfaceSet::Pull(const PullSettings& settings, std::vector<std::string>& errors)
 {
   bool changed = this->Changed;
@@ -104,16 +114,30 @@ void SurfaceSet::CancelBuilds()
   this->BuildsStarted = 0;
 }
 
+std::vector<const HapticSurface*> SurfaceSet::Listed() const
+{
+  std::vector<const HapticSurface*> listed;
+  for (const bool isGripped : { false, true })
+  {
+    for (const auto& surface : this->Surfaces)
+    {
+      if (surface->Touched() && surface->IsGripped() == isGripped)
+      {
+        listed.push_back(surface.get());
+      }
+    }
+  }
+  return listed;
+}
+
 std::vector<TouchedSurface> SurfaceSet::Touched() const
 {
   std::vector<TouchedSurface> touched;
-  for (const auto& surface : this->Surfaces)
+  for (const HapticSurface* surface : this->Listed())
   {
-    if (HapticSurface::Snapshot snapshot = surface->Touched())
-    {
-      touched.emplace_back(std::move(snapshot), surface->Motion(), surface->Felt());
-      touched.back().Identity = static_cast<std::uint64_t>(surface->Id()) + 1; // 0 is nobody
-    }
+    touched.emplace_back(surface->Touched(), surface->Motion(), surface->Felt());
+    touched.back().Identity = static_cast<std::uint64_t>(surface->Id()) + 1; // 0 is nobody
+    touched.back().IsGripped = surface->IsGripped();
   }
   return touched;
 }
@@ -123,7 +147,8 @@ std::optional<double> SurfaceSet::CastRay(const Vec3& from, const Vec3& directio
   std::optional<double> nearest;
   for (const auto& surface : this->Surfaces)
   {
-    if (const HapticSurface::Snapshot snapshot = surface->Touched())
+    const HapticSurface::Snapshot snapshot = surface->Touched();
+    if (snapshot && !surface->IsGripped())
     {
       const RigidPose& pose = surface->Pose();
       const std::optional<double> t =
@@ -138,12 +163,9 @@ void SurfaceSet::Published(std::uint64_t generation)
 {
   std::vector<Entry>& entries = this->Generations[generation];
   entries.clear();
-  for (const auto& surface : this->Surfaces)
+  for (const HapticSurface* surface : this->Listed())
   {
-    if (surface->Touched())
-    {
-      entries.push_back({ surface->Id(), surface->OriginalCellIds(), surface->Touched() });
-    }
+    entries.push_back({ surface->Id(), surface->OriginalCellIds(), surface->Touched() });
   }
 }
 
@@ -171,6 +193,17 @@ SceneCell SurfaceSet::Locate(const TickRecord& tick) const
     found.Cell = entry->Cells->at(static_cast<std::size_t>(tick.Constraints[0].Triangle));
   }
   return found;
+}
+
+Vec3 SurfaceSet::PointOf(const TickRecord& tick, const HapticSurface& surface) const
+{
+  const Entry* entry = this->Find(tick, 0);
+  if (!entry || entry->Id != surface.Id())
+  {
+    return surface.Pose().PointToSurface(tick.GodObject);
+  }
+  const Vec3& origin = entry->Touched->Origin();
+  return { tick.Local[0] + origin[0], tick.Local[1] + origin[1], tick.Local[2] + origin[2] };
 }
 
 void SurfaceSet::Probe(const TickRecord& tick, vtkHapticProbe* probe) const

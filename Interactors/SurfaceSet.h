@@ -46,6 +46,9 @@ public:
   HapticSurface* Find(int id) const;
   HapticSurface* Find(vtkActor* actor) const;
 
+  /// Grips a surface or lets go of it, from the next publication on.
+  void SetGripped(int id, bool isGripped);
+
   /// Takes in what has changed. True where a new god-object has to be published. Each new error is
   /// appended to `errors`, naming its surface.
   bool Pull(const PullSettings& settings, std::vector<std::string>& errors);
@@ -69,6 +72,9 @@ public:
 
   /// What the first constraint of a tick belongs to.
   SceneCell Locate(const TickRecord& tick) const;
+  /// Where the god-object was in a tick, in the frame that a surface's Pose() moves: exactly where
+  /// it held the god-object, else as it is now.
+  Vec3 PointOf(const TickRecord& tick, const HapticSurface& surface) const;
   /// Fills a new probe with what a tick touched.
   void Probe(const TickRecord& tick, vtkHapticProbe* probe) const;
   /// The corners of the triangles that hold the god-object in a tick, three each; world frame,
@@ -83,6 +89,8 @@ private:
     HapticSurface::Snapshot Touched;
   };
   const Entry* Find(const TickRecord& tick, int constraint) const;
+  /// Those that a god-object has, in its order: what is gripped comes last.
+  std::vector<const HapticSurface*> Listed() const;
 
   std::vector<std::unique_ptr<HapticSurface>> Surfaces;
   std::map<std::uint64_t, std::vector<Entry>> Generations;

@@ -169,8 +169,9 @@ bool vtkHapticScene::PullState()
   this->NoticeDevice();
   const bool changed = this->ShowState();
   this->ObeyButtons();
+  const bool carried = this->CarryGripped();
   this->Internal->Events.Dispatch(this);
-  return changed;
+  return changed || carried;
 }
 
 void vtkHapticScene::NoticeDevice()
@@ -200,6 +201,7 @@ void vtkHapticScene::PullRecords()
   haptics::TraceRecorder& recorder = this->Internal->Recorder;
   for (const haptics::TickRecord& record : records)
   {
+    this->Internal->Grip.Look(record, this->Internal->Surfaces);
     if (this->Actor)
     {
       this->Actor->AddTrailPoint(record.GodObject.data(), record.NumberOfConstraints > 0);
@@ -393,6 +395,7 @@ void vtkHapticScene::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Touching: " << (this->Touching ? "yes" : "no") << "\n";
   os << indent << "TouchedSurface: " << this->TouchedSurface << "\n";
   os << indent << "TouchedCell: " << this->TouchedCell << "\n";
+  os << indent << "GrippedSurface: " << this->GetGrippedSurface() << "\n";
   os << indent << "Recording: " << (this->Recording ? "yes" : "no") << "\n";
   os << indent << "Recorded ticks: " << this->Internal->Recorder.Size() << " of "
      << this->MaximumTraceTicks << "\n";

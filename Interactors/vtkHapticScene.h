@@ -78,7 +78,9 @@ public:
     DeviceStateEvent,   ///< int*: a vtkHapticDevice::DeviceState
     OverloadEvent,      ///< vtkHapticProbe: too many triangles in one place; held where it is safe
     LandmarkEvent,      ///< int*: how many landmarks there are, after one came by a button
-    BuildEvent          ///< no data; a background build began, got on or ended: GetBuildProgress()
+    BuildEvent,         ///< no data; a background build began, got on or ended: GetBuildProgress()
+    GripEvent,          ///< int*: the id of the surface that the hand carries now
+    LetGoEvent          ///< int*: the id of the surface that it does not carry any more
   };
 
   ///@{
@@ -131,7 +133,8 @@ public:
   vtkAssembly* GetSurfaceAssembly(int id);
   /** The filter that prepares a surface: side, engine, report. Null where there is no such id. */
   vtkGodObjectFilter* GetSurfaceFilter(int id);
-  /** How a surface feels: friction, stiffness from data and so on. Null where there is no such id. */
+  /** How a surface feels: friction, stiffness from data and so on. Null where there is no such id.
+   */
   vtkHapticProperties* GetSurfaceProperties(int id);
   /**
    * Chooses the data array of the surface that a property comes from (a number of
@@ -139,7 +142,7 @@ public:
    * name; none where that is null or empty. False where there is no such id.
    */
   bool SetSurfacePropertyArray(int id, int property, int association, const char* name);
-  /** Whether a surface can be felt now: shown, and its geometry was good at least once. */
+  /** Whether a surface can be felt now: shown, not gripped, its geometry good at least once. */
   bool IsSurfaceTouchable(int id);
 
   ///@{
@@ -264,13 +267,16 @@ public:
 
   ///@{
   /**
-   * The device's button that drops a landmark (default 0) and the one that is the clutch while it
-   * is held (default 1); -1 for none, at most 31.
+   * The device's button that drops a landmark (default 0), the one that is the clutch while it is
+   * held (default 1), and the one that grips what is touched while it is held (default 2); -1 for
+   * none, at most 31.
    */
   vtkSetClampMacro(LandmarkButton, int, -1, 31);
   vtkGetMacro(LandmarkButton, int);
   vtkSetClampMacro(ClutchButton, int, -1, 31);
   vtkGetMacro(ClutchButton, int);
+  vtkSetClampMacro(GripButton, int, -1, 31);
+  vtkGetMacro(GripButton, int);
   ///@}
 
   ///@{
@@ -281,6 +287,32 @@ public:
    */
   void SetClutched(bool clutched);
   bool GetClutched();
+  ///@}
+
+  ///@{
+  /**
+   * The grip: the hand carries a surface, that which is touched or one with the id given, touched
+   * or not, by the point where the god-object is. Its actor, or the part of an assembly, goes where
+   * the god-object goes at each Update(): the device has no more than three degrees of freedom, so
+   * nothing turns. All else is felt as ever, and holds hand and part back: a point collides, not
+   * the part. What is carried is not felt, and free of all else the hand feels nothing.
+   *
+   * Let go, it is felt again from where it is, with the hand on the side where it was. The scene
+   * lets go by itself where the surface is hidden or removed, the clutch is pressed, another is
+   * gripped or the servo stops. Both take effect at once.
+   *
+   * Of the actor its position is changed, in whatever frame its user matrix or its assembly puts
+   * it; to undo a move set the position that it had at GripEvent.
+   *
+   * False and an error where there is no such surface, or it has no actor, is hidden, or no hand is
+   * there: released, or clutched; of a button's grip a warning, once for each surface without an
+   * actor. LetGo() does nothing where nothing is gripped.
+   */
+  bool Grip();
+  bool GripSurface(int id);
+  void LetGo();
+  /** The id of the surface that the hand carries; -1 for none. */
+  int GetGrippedSurface();
   ///@}
 
   /**
@@ -354,6 +386,9 @@ private:
   bool ShowState();
   void NoticeDevice();
   void ObeyButtons();
+  void ObeyGripButton();
+  bool IsHandThere();
+  bool CarryGripped();
   void UpdateProbe(bool touching);
   void ShowInPicture();
 
@@ -366,6 +401,7 @@ private:
   vtkSmartPointer<vtkHapticProbe> Probe; // null until asked for
   int LandmarkButton = 0;
   int ClutchButton = 1;
+  int GripButton = 2;
   std::string ErrorMessage;
 
   double HapticInterfacePoint[3] = { 0.0, 0.0, 0.0 };

@@ -50,6 +50,7 @@ void vtkHapticScene::ObeyButtons()
     this->Internal->ClutchHeld = held;
     this->SetClutched(held);
   }
+  this->ObeyGripButton();
 }
 
 void vtkHapticScene::SetClutched(bool clutched)
@@ -65,10 +66,14 @@ void vtkHapticScene::SetClutched(bool clutched)
     // inside by then.
     const double height = LiftOffHeight * std::cbrt(workspace->Determinant());
     const double* normal = this->GetProbe()->GetNormal();
+    const haptics::HapticGrip& grip = this->Internal->Grip;
+    const bool carries = grip.Surface() != haptics::HapticGrip::Nothing;
     for (int i = 0; i < 3; ++i)
     {
-      this->Internal->LiftOff[i] = this->Touching ? height * normal[i] : 0.0;
+      this->Internal->LiftOff[i] =
+        height * ((this->Touching ? normal[i] : 0.0) + (carries ? grip.Normal()[i] : 0.0));
     }
+    this->LetGo();
   }
   else
   {

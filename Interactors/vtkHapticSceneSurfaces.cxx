@@ -190,7 +190,7 @@ bool vtkHapticScene::IsSurfaceTouchable(int id)
     }
   }
   const haptics::HapticSurface* surface = this->Internal->Surfaces.Find(id);
-  return surface && surface->Touched();
+  return surface && surface->Touched() && !surface->IsGripped();
 }
 
 void vtkHapticScene::SetBackgroundBuilding(bool background)
@@ -268,6 +268,12 @@ bool vtkHapticScene::PullSurfaces()
   }
   const bool clutchMoved = std::exchange(this->Internal->ClutchMoved, false);
   const bool changed = surfaces.Pull(settings, errors) || clutchMoved;
+  haptics::HapticGrip& grip = this->Internal->Grip;
+  int lost = grip.IsLost(surfaces) ? grip.Surface() : haptics::HapticGrip::Nothing;
+  if (lost != haptics::HapticGrip::Nothing)
+  {
+    grip.LetGo(surfaces);
+  }
   if (changed)
   {
     std::vector<haptics::TouchedSurface> touched;
@@ -278,6 +284,7 @@ bool vtkHapticScene::PullSurfaces()
     const std::uint64_t generation =
       this->Servo->PublishGodObject(std::make_unique<haptics::GodObject>(std::move(touched)));
     this->Internal->Published = generation;
+    grip.Published(generation);
     if (!this->Servo->IsRunning())
     {
       surfaces.Forget(generation); // all records are drained, no tick can tell of older ones
@@ -288,6 +295,10 @@ bool vtkHapticScene::PullSurfaces()
   {
     this->Fail(error);
     this->InvokeEvent(vtkHapticScene::SurfaceErrorEvent);
+  }
+  if (lost != haptics::HapticGrip::Nothing)
+  {
+    this->InvokeEvent(vtkHapticScene::LetGoEvent, &lost);
   }
   this->TellOfBuilds();
   return changed || surfaces.HaveMoved();

@@ -45,6 +45,8 @@ vtkPVHapticScene::vtkPVHapticScene()
 {
   this->Internal->Scene->GetServo()->SetMaximumForce(this->Internal->MaximumForce);
   this->Internal->Scene->BackgroundBuildingOn();
+  // What is touched is an actor in no renderer: carried, it would leave the picture and the server.
+  this->Internal->Scene->SetGripButton(-1);
   this->Internal->Scene->AddObserver(
     vtkHapticScene::SurfaceErrorEvent, this, &vtkPVHapticScene::OnSurfaceError);
 }

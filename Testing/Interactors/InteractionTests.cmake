@@ -5,6 +5,8 @@ haptics_add_gtest(TestHapticScene
   TestBackgroundBuilding.cxx
   TestChangingSurfaces.cxx
   TestGeodesicDistance.cxx
+  TestGrip.cxx
+  TestGripBadInput.cxx
   TestHapticScene.cxx
   TestHapticSceneActors.cxx
   TestHapticSceneAssemblies.cxx

@@ -1,0 +1,137 @@
+#include "HapticGrip.h"
+
+#include "SurfaceSet.h"
+#include "vtkActor.h"
+#include "vtkMath.h"
+#include "vtkMatrix4x4.h"
+#include "vtkNew.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace haptics
+{
+namespace
+{
+/// Of the coordinates: a shift by less is rounding, and would draw the picture again and again.
+constexpr double Rounding = 1e-14;
+
+double Largest(const Vec3& v)
+{
+  return std::max({ std::abs(v[0]), std::abs(v[1]), std::abs(v[2]) });
+}
+}
+
+void HapticGrip::Take(int surface, const TickRecord& latest, SurfaceSet& surfaces)
+{
+  this->Gripped = surface;
+  this->Since = 0;
+  this->IsHeld = false;
+  this->Remember(latest, surfaces);
+  surfaces.SetGripped(surface, true);
+}
+
+void HapticGrip::LetGo(SurfaceSet& surfaces)
+{
+  surfaces.SetGripped(this->Gripped, false);
+  this->Gripped = Nothing;
+}
+
+bool HapticGrip::IsLost(const SurfaceSet& surfaces) const
+{
+  const HapticSurface* const surface = surfaces.Find(this->Gripped);
+  return this->Gripped != Nothing && !(surface && surface->Touched());
+}
+
+void HapticGrip::Published(std::uint64_t generation)
+{
+  if (this->Since == 0)
+  {
+    this->Since = generation;
+  }
+}
+
+void HapticGrip::Remember(const TickRecord& tick, const SurfaceSet& surfaces)
+{
+  if (const HapticSurface* const surface = surfaces.Find(this->Gripped))
+  {
+    const bool isTouched = surfaces.Locate(tick).Surface == this->Gripped;
+    this->Point = surface->PointInActor(surfaces.PointOf(tick, *surface));
+    this->NormalThere = isTouched ? tick.Constraints[0].Normal : Vec3{};
+    this->LastTick = tick.Tick;
+  }
+}
+
+void HapticGrip::Look(const TickRecord& tick, const SurfaceSet& surfaces)
+{
+  if (this->Gripped == Nothing || this->IsHeld)
+  {
+    return;
+  }
+  this->IsHeld = this->Since != 0 && tick.Generation >= this->Since;
+  // Where ticks are missing the hand may be anywhere by now: it holds the surface from there.
+  if (!this->IsHeld || tick.Tick != this->LastTick + 1)
+  {
+    this->Remember(tick, surfaces);
+  }
+}
+
+bool HapticGrip::Carry(const TickRecord& tick, vtkActor* actor, SurfaceSet& surfaces)
+{
+  HapticSurface* const surface = surfaces.Find(this->Gripped);
+  if (!surface || !this->IsHeld)
+  {
+    return false;
+  }
+  surface->Carry();
+  Matrix4 world;
+  surface->Actor()->GetMatrix(world.data());
+  const Vec3 there = Transformed(world, this->Point);
+  const Vec3& hand = tick.GodObject;
+  const Vec3 by{ hand[0] - there[0], hand[1] - there[1], hand[2] - there[2] };
+  const double size =
+    std::max({ Largest(hand), Largest(there), Largest({ world[3], world[7], world[11] }) });
+  return Largest(by) > Rounding * size && ShiftActor(actor, world, by);
+}
+
+bool ShiftActor(vtkActor* actor, const Matrix4& world, const Vec3& by)
+{
+  vtkNew<vtkMatrix4x4> above; // what turns a shift of its position into one in the world
+  if (vtkMatrix4x4* const user = actor->GetUserMatrix())
+  {
+    above->DeepCopy(user);
+  }
+  Matrix4 own;
+  actor->GetMatrix(own.data());
+  if (!AreSame(own, world)) // world = parents * own
+  {
+    Matrix4 inverse;
+    Matrix4 parents;
+    Matrix4 user;
+    vtkMatrix4x4::Invert(own.data(), inverse.data());
+    vtkMatrix4x4::Multiply4x4(world.data(), inverse.data(), parents.data());
+    vtkMatrix4x4::DeepCopy(user.data(), above);
+    vtkMatrix4x4::Multiply4x4(parents.data(), user.data(), above->GetData());
+  }
+  const double determinant = above->Determinant();
+  if (!std::isfinite(determinant) || determinant == 0.0)
+  {
+    return false;
+  }
+  above->Invert();
+  Vec3 shift{};
+  for (int i = 0; i < 3; ++i)
+  {
+    for (int j = 0; j < 3; ++j)
+    {
+      shift[i] += above->GetElement(i, j) * by[j];
+    }
+  }
+  if (!std::isfinite(Largest(shift)))
+  {
+    return false;
+  }
+  actor->AddPosition(shift.data());
+  return true;
+}
+}
