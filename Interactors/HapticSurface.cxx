@@ -380,8 +380,10 @@ void HapticSurface::TakeBuild(const PullSettings& settings, std::string& error)
   }
   if (isOtherFrame)
   {
-    // Where the actor has been squeezed meanwhile, the next build is for that.
-    this->Placed = FindPose(this->LastMatrix, this->Baked).value_or(this->Placed);
+    // Where the actor has been scaled meanwhile, the next build is for that.
+    const std::optional<RigidPose> pose = FindPose(this->LastMatrix, this->Baked);
+    this->NeedsBaking = !pose;
+    this->Placed = pose.value_or(this->Placed);
     this->Moving = this->Source ? std::make_shared<SurfaceMotion>(
                                     this->Placed, this->InForce->Origin(), this->InForce->Radius())
                                 : nullptr;
@@ -406,6 +408,7 @@ void HapticSurface::CancelBuild()
   {
     this->Build->Cancel();
     this->Build.reset();
+    this->Deformer.reset(); // the build may go on with it for a while, to a shape nobody touches
   }
 }
 

@@ -76,6 +76,16 @@ protected:
     }
   }
 
+  /// How wide the ball is that is touched, at the height of the middle of one of R = 0.05.
+  double HalfWidth()
+  {
+    const double from[3] = { 1.0, 1e-4, -0.05 };
+    const double direction[3] = { -1.0, 0.0, 0.0 };
+    double hit[3] = { 0.0, 0.0, 0.0 };
+    EXPECT_TRUE(this->Scene->IntersectRay(from, direction, hit));
+    return hit[0];
+  }
+
   vtkGodObjectFilter* Filter() { return this->Scene->GetSurfaceFilter(this->Id); }
 
   LedHand Hand;
@@ -242,6 +252,33 @@ TEST_F(BackgroundBuilding, PointsMayBeWrittenWhileTheyAreBuiltFrom)
   this->Scene->Update();
   this->AwaitBuilds();
   EXPECT_NEAR(middle(), -0.049, 1e-5) << "as it was declared modified";
+}
+
+TEST_F(BackgroundBuilding, AnActorMayBeScaledWhileItIsBuiltForTheFirstTime)
+{
+  vtkNew<vtkPolyDataMapper> mapper;
+  vtkNew<vtkActor> actor;
+  mapper->SetInputData(MakeBall(Fine));
+  actor->SetMapper(mapper);
+  this->Scene->RemoveAllSurfaces();
+  this->Scene->AddSurface(actor);
+  this->Scene->Update();
+  ASSERT_TRUE(this->Scene->IsBuilding());
+  actor->SetScale(2.0);
+  this->AwaitBuilds();
+  EXPECT_NEAR(this->HalfWidth(), 0.05 * std::sqrt(3.0), 1e-4);
+}
+
+TEST_F(BackgroundBuilding, AScaleMayBeTakenBackWhileItIsBuilt)
+{
+  this->Show(MakeBall(Fine));
+  this->Scene->Step(1);
+  this->Actor->SetScale(2.0);
+  this->Scene->Update();
+  ASSERT_TRUE(this->Scene->IsBuilding());
+  this->Actor->SetScale(1.0);
+  this->AwaitBuilds();
+  EXPECT_NEAR(this->HalfWidth(), 0.05, 1e-4);
 }
 
 TEST_F(BackgroundBuilding, ASurfaceMayGoWhileItIsBuilt)
