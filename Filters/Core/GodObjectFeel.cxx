@@ -105,29 +105,42 @@ bool GodObject::Implementation::FeelsAs(const Implementation& previous) const
     { return a.Surface != b.Surface || a.Properties == b.Properties; });
 }
 
-/// Keeps what held another god-object, at the same place, where only properties have changed or
-/// a surface goes on deforming: so that one held by friction stays.
+/// Keeps what held another god-object, at the same place, where the surface that did is still the
+/// same or goes on deforming: so that one held by friction stays, whatever else comes and goes.
 void GodObject::Implementation::StayInContact(const Implementation& previous)
 {
-  const bool isSameShape = std::equal(this->Surfaces.begin(), this->Surfaces.end(),
-    previous.Surfaces.begin(), previous.Surfaces.end(),
-    [](const TouchedSurface& a, const TouchedSurface& b)
-    {
-      return (a.Surface == b.Surface || a.Surface->Follows(*b.Surface)) && a.Motion == b.Motion &&
-        a.IsGripped == b.IsGripped;
-    });
   this->Result.Felt = Feel();
-  if (!isSameShape || previous.Active.IsEmpty())
+  const Vector shift = previous.Origin - this->Origin;
+  if (this->Position != previous.Position + shift)
   {
     return;
   }
-  this->Active = previous.Active;
-  this->Cone = previous.Cone;
-  if (!this->Movers.empty() || !this->Deforming.empty())
+  ActivePlanes kept;
+  for (int i = 0; i < previous.Active.SupportSize(); ++i)
   {
-    this->Active.Renew(
-      [this](ActivePlane& plane) { this->Sets[plane.Facet.Surface].Renew(plane); });
+    ActivePlane plane = previous.Active.Support(i);
+    const TouchedSurface& then = previous.Surfaces[plane.Facet.Surface];
+    const auto now = std::find_if(this->Surfaces.begin(), this->Surfaces.end(),
+      [&then](const TouchedSurface& touched)
+      {
+        return (touched.Surface == then.Surface || touched.Surface->Follows(*then.Surface)) &&
+          touched.Motion == then.Motion && touched.IsGripped == then.IsGripped;
+      });
+    if (now != this->Surfaces.end())
+    {
+      plane.Facet.Surface = static_cast<std::int32_t>(now - this->Surfaces.begin());
+      this->Sets[plane.Facet.Surface].Renew(plane);
+      kept.Add(plane);
+    }
   }
+  if (kept.IsEmpty())
+  {
+    return;
+  }
+  kept.Nearest(this->Position, ToVector(this->Result.Hip) - this->Origin);
+  this->Active = kept;
+  this->Cone = previous.Cone;
+  this->Result.NumberOfConstraints = kept.SupportSize();
   this->UpdateFeel();
 }
 }

@@ -187,6 +187,26 @@ TEST(Friction, StaysStuckWhereOnlyPropertiesChange)
   EXPECT_EQ(after.Update({ 0.0024, 0.003, -0.005 }).Position, stuck);
 }
 
+TEST(Friction, StaysStuckWhereAnotherSurfaceComesOrGoes)
+{
+  const TouchedSurface table = Touchable(Table(), Rough(0.5, 0.3));
+  const TouchedSurface ball(MakeSurface(Moved(Icosphere(2, 0.01), { 0.3, 0.2, 0.1 })));
+  const std::vector<std::vector<TouchedSurface>> scenes = { { table }, { table, ball },
+    { ball, table }, { table } };
+  auto god = std::make_unique<GodObject>(scenes.front());
+  god->Update({ 0, 0.003, 0.001 });
+  god->Update({ 0, 0.003, -0.005 });
+  const Vec3 stuck = god->Update({ 0.002, 0.003, -0.005 }).Position;
+  for (const auto& scene : scenes)
+  {
+    auto next = std::make_unique<GodObject>(scene);
+    next->Continue(*god);
+    EXPECT_LT(Length(next->Update({ 0.002, 0.003, -0.005 }).Position - stuck), 1e-15)
+      << scene.size() << " surfaces";
+    god = std::move(next);
+  }
+}
+
 //      o             a belt runs under a resting hand: it takes the god-object along as far as
 //  ----------->      friction holds it
 //      x
