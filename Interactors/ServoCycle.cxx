@@ -87,7 +87,8 @@ bool ServoCycle::Tick(double time) noexcept
   if (contact.Status != UpdateStatus::InvalidHip)
   {
     guarded.Displacement = settings.DeviceToWorld.VectorToDevice(contact.Displacement);
-    guarded.Touching = contact.NumberOfConstraints > 0;
+    guarded.Touching =
+      contact.NumberOfConstraints > 0 || contact.Status == UpdateStatus::Overloaded;
     guarded.SurfaceStep = settings.DeviceToWorld.VectorToDevice(contact.Carried);
     guarded.Felt = contact.Felt;
     if (contact.Felt.IsShaded)

@@ -308,6 +308,8 @@ const Contact& GodObject::Update(const Vec3& hip) noexcept
   god.Update(goal);
 
   result.Hip = hip;
+  result.Carried = ToVec3(god.Carried);
+  god.Carried = Vector(0.0);
   if (god.IsSplit)
   {
     result.Position = hip;
@@ -319,8 +321,6 @@ const Contact& GodObject::Update(const Vec3& hip) noexcept
     return result;
   }
   const Vector displacement = god.Position - goal;
-  result.Carried = ToVec3(god.Carried);
-  god.Carried = Vector(0.0);
   result.Position = ToVec3(god.Position + god.Origin);
   result.Displacement = ToVec3(displacement);
   result.Penetration = glm::length(displacement);

@@ -199,6 +199,20 @@ TEST(MovingSurfaces, SqueezeWithoutForceAndLetGoOnTheSameSide)
   }
 }
 
+TEST(MovingSurfaces, DoNoWorkOnASqueezedHandThatIsToldLater)
+{
+  const auto lid = Standing(Turned({ 1, 0, 0 }, M_PI, { 0, 0, 0.01 }));
+  GodObject god({ MakeSurface(Square(0.1, 4)), { MakeSurface(Square(0.1, 4)), lid } });
+  const Vec3 hip{ 0.01, 0.02, 0.005 };
+  god.Update(hip);
+  lid->MoveTo(Turned({ 1, 0, 0 }, M_PI, { 0, 0, -0.001 }), 0.0); // takes it along, then squeezes
+  EXPECT_EQ(TickWith(god, hip).Status, UpdateStatus::Squeezed);
+  lid->MoveTo(Turned({ 1, 0, 0 }, M_PI, { 0, 0, 0.02 }), 0.0);
+  const Contact& contact = TickWith(god, hip);
+  EXPECT_EQ(contact.Status, UpdateStatus::Free);
+  EXPECT_EQ(contact.Carried, (Vec3{ 0, 0, 0 }));
+}
+
 TEST(MovingSurfaces, ASqueezedHandThatLeavesBothSurfacesIsFree)
 {
   const auto block = Standing({ { 0, 0, 0.2 } });

@@ -1,10 +1,13 @@
 #include "ServoCycle.h"
 #include "ServoTestTools.h"
+#include "SurfaceProperties.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 using haptics::ServoCycle;
 using haptics::ServoSettings;
@@ -51,6 +54,41 @@ TEST(ServoCycle, PushesBackFromAPlaneWithStiffnessTimesDepth)
   EXPECT_EQ(latest.Generation, 1u);
   EXPECT_NEAR(latest.Penetration, 0.002, ForceTolerance / 500.0);
   EXPECT_EQ(latest.Force, channel->LastForce);
+}
+
+TEST(ServoCycle, PushesBackWhereTooManyTrianglesMeetWithPropertiesOrWithout)
+{
+  haptics::TriangleMesh fan;
+  fan.Points.push_back({ 0, 0, 0 });
+  const int count = 40000;
+  for (int i = 0; i < count; ++i)
+  {
+    const double a = 2.0 * M_PI * i / count;
+    fan.Points.push_back({ std::cos(a), std::sin(a), 0 });
+    fan.Triangles.push_back({ 0, 1 + i, 1 + (i + 1) % count });
+  }
+  std::string error;
+  const auto surface = haptics::TriangleSurface::Build(std::move(fan), {}, error);
+  ASSERT_TRUE(surface) << error;
+  haptics::PropertyValues rough;
+  rough[haptics::Property::StaticFriction].Constant = 0.3;
+  rough[haptics::Property::DynamicFriction].Constant = 0.2;
+  const auto feel = haptics::SurfaceProperties::Build(rough, *surface, error);
+  ASSERT_TRUE(feel) << error;
+  for (const auto& properties : { decltype(feel)(), feel })
+  {
+    ServoCycle cycle(1024);
+    cycle.GetExchange().Publish(std::make_unique<haptics::GodObject>(
+      std::vector<haptics::TouchedSurface>{ { surface, nullptr, properties } }));
+    const auto channel = MakePressingHand(0.002);
+    cycle.Begin(channel, ServoState::Stepping);
+    ASSERT_EQ(RunTicks(cycle, 150), 150);
+    ASSERT_TRUE(cycle.UpdateLatest());
+    EXPECT_EQ(cycle.GetLatest().Status, UpdateStatus::Overloaded);
+    const double depth = cycle.GetLatest().Penetration;
+    EXPECT_GT(depth, 0.0019);
+    ExpectNear(channel->LastForce, { 0.0, 0.0, 500.0 * depth }, ForceTolerance);
+  }
 }
 
 TEST(ServoCycle, AsksForNoForceInFreeSpace)
