@@ -37,9 +37,11 @@ bool HaveSameCells(const BuildKey& a, const BuildKey& b)
     std::equal(a.Times.begin() + 1, a.Times.end(), b.Times.begin() + 1, b.Times.end());
 }
 
-BuildKey MakeBuildKey(vtkPolyData* input, std::vector<double> properties)
+BuildKey MakeBuildKey(vtkPolyData* input, vtkDataArray* sides, std::vector<double> properties)
 {
   BuildKey key;
+  key.SideArray = sides;
+  key.SideTime = sides ? sides->GetMTime() : 0;
   key.Properties = std::move(properties);
   Add(key, input->GetPoints());
   AddCells(key, input->GetPolys());

@@ -5,9 +5,19 @@
 
 namespace haptics
 {
-std::int64_t DropDuplicateTriangles(std::vector<Triangle>& triangles,
-  std::vector<vtkIdType>& originalCells, std::size_t numberOfPoints)
+namespace
 {
+/// The side of two triangles in one. What Automatic comes to is not known yet.
+Side Joined(Side a, Side b)
+{
+  return a == b ? a : a == Side::Both || b == Side::Both ? Side::Both : Side::Automatic;
+}
+}
+
+std::int64_t DropDuplicateTriangles(TriangleMesh& mesh, std::vector<vtkIdType>& originalCells)
+{
+  std::vector<Triangle>& triangles = mesh.Triangles;
+  std::vector<Side>& sides = mesh.Sides;
   const auto rotated = [&triangles](std::int32_t index)
   {
     Triangle t = triangles[index];
@@ -15,7 +25,7 @@ std::int64_t DropDuplicateTriangles(std::vector<Triangle>& triangles,
     return t;
   };
   // Bins the triangles by their lowest corner, then looks for equal ones within each bin.
-  std::vector<std::int32_t> start(numberOfPoints + 1, 0);
+  std::vector<std::int32_t> start(mesh.Points.size() + 1, 0);
   for (const Triangle& t : triangles)
   {
     ++start[*std::min_element(t.begin(), t.end()) + 1];
@@ -45,9 +55,15 @@ std::int64_t DropDuplicateTriangles(std::vector<Triangle>& triangles,
     std::sort(first, last,
       [](const Entry& a, const Entry& b)
       { return std::tie(a.Second, a.Third, a.Index) < std::tie(b.Second, b.Third, b.Index); });
+    auto kept = first;
     for (auto entry = first; entry != last; ++entry)
     {
-      drop[entry->Index] = entry != first && sameCorners(*(entry - 1), *entry);
+      drop[entry->Index] = entry != first && sameCorners(*kept, *entry);
+      kept = drop[entry->Index] ? kept : entry;
+      if (drop[entry->Index] && !sides.empty())
+      {
+        sides[kept->Index] = Joined(sides[kept->Index], sides[entry->Index]);
+      }
     }
   }
   std::size_t kept = 0;
@@ -57,12 +73,17 @@ std::int64_t DropDuplicateTriangles(std::vector<Triangle>& triangles,
     {
       triangles[kept] = triangles[i];
       originalCells[kept] = originalCells[i];
+      if (!sides.empty())
+      {
+        sides[kept] = sides[i];
+      }
       ++kept;
     }
   }
   const auto dropped = static_cast<std::int64_t>(triangles.size() - kept);
   triangles.resize(kept);
   originalCells.resize(kept);
+  sides.resize(sides.empty() ? 0 : kept);
   return dropped;
 }
 }

@@ -5,7 +5,6 @@
 
 #include "vtkType.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -13,8 +12,8 @@ namespace haptics
 {
 /// Keeps the first of all triangles with the same corners and orientation, drops its cell with each
 /// other one, and returns how many were dropped. One that faces the other way is no duplicate.
-std::int64_t DropDuplicateTriangles(std::vector<Triangle>& triangles,
-  std::vector<vtkIdType>& originalCells, std::size_t numberOfPoints);
+/// Where the triangles have sides, what is kept is touched from all that its duplicates were.
+std::int64_t DropDuplicateTriangles(TriangleMesh& mesh, std::vector<vtkIdType>& originalCells);
 }
 
 #endif

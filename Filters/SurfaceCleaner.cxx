@@ -409,8 +409,13 @@ CleaningResult Cleaner::Run()
     CloseFlatTriangles(
       this->Local, std::move(this->Flat), this->Cleaned.Mesh.Triangles, this->Cleaned.OriginalCell);
   }
-  this->Cleaned.Report.DuplicateTriangles = DropDuplicateTriangles(
-    this->Cleaned.Mesh.Triangles, this->Cleaned.OriginalCell, this->Cleaned.Mesh.Points.size());
+  for (std::size_t i = 0; this->Options.CellSides && i < this->Cleaned.OriginalCell.size(); ++i)
+  {
+    const auto cell = static_cast<std::size_t>(this->Cleaned.OriginalCell[i]);
+    this->Cleaned.Mesh.Sides.push_back((*this->Options.CellSides)[cell]);
+  }
+  this->Cleaned.Report.DuplicateTriangles =
+    DropDuplicateTriangles(this->Cleaned.Mesh, this->Cleaned.OriginalCell);
   this->DropUnusedPoints();
   const CleaningReport& report = this->Cleaned.Report;
   if (this->Cleaned.Mesh.Triangles.empty())

@@ -18,6 +18,7 @@ struct CleaningOptions
 {
   double MergeTolerance = 0.0;    ///< finite, >= 0
   bool AbsoluteTolerance = false; ///< in world units; otherwise a fraction of the bounds' diagonal
+  const std::vector<Side>* CellSides = nullptr; ///< one a cell of the input; null: none
 };
 
 /// What was found and mended on the way from cells to clean triangles.

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <sstream>
 #include <utility>
 
 namespace haptics
@@ -82,6 +83,26 @@ bool HoldTheSame(vtkCellArray* a, vtkCellArray* b)
 }
 }
 
+std::string CheckSideArray(vtkDataArray* array, bool isOfCells, vtkPolyData* input)
+{
+  std::ostringstream problem;
+  if (!isOfCells)
+  {
+    problem << "is not of cells, and a side is one for each cell (a vtkPointDataToCellData makes "
+               "cell data of point data)";
+  }
+  else if (array->GetNumberOfComponents() != 1)
+  {
+    problem << "has " << array->GetNumberOfComponents() << " components, and one is needed";
+  }
+  else if (array->GetNumberOfTuples() != input->GetNumberOfCells())
+  {
+    problem << "has " << array->GetNumberOfTuples() << " values, and " << input->GetNumberOfCells()
+            << " are needed";
+  }
+  return problem.str();
+}
+
 SurfacePreparation::SurfacePreparation(vtkPolyData* input, const PreparationOptions& options)
   : Options(options)
   , InputKey(MakeKey(input, options))
@@ -91,13 +112,49 @@ SurfacePreparation::SurfacePreparation(vtkPolyData* input, const PreparationOpti
   {
     this->Input->GetCellData()->AddArray(ghosts);
   }
+  this->ReadSides();
+}
+
+void SurfacePreparation::ReadSides()
+{
+  const vtkSmartPointer<vtkDataArray> array = std::exchange(this->Options.CellSides, nullptr);
+  if (!array)
+  {
+    return;
+  }
+  const vtkIdType count = array->GetNumberOfTuples();
+  const vtkIdType firstPolygon = this->Input->GetNumberOfVerts() + this->Input->GetNumberOfLines();
+  vtkIdType bad = 0;
+  vtkIdType firstBad = -1;
+  this->CellSides.reserve(static_cast<std::size_t>(count));
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    const double value = array->GetComponent(i, 0);
+    const bool isSide = value == static_cast<double>(Side::Front) ||
+      value == static_cast<double>(Side::Both) || value == static_cast<double>(Side::Automatic);
+    if (!isSide && i >= firstPolygon)
+    {
+      firstBad = bad++ == 0 ? i : firstBad;
+    }
+    this->CellSides.push_back(
+      isSide ? static_cast<Side>(static_cast<int>(value)) : this->Options.TouchedSide);
+  }
+  if (bad > 0)
+  {
+    std::ostringstream text;
+    text << "The array " << (array->GetName() ? array->GetName() : "without a name")
+         << " for the side is neither 0 (front) nor 1 (both) nor 2 (automatic) at " << bad << " of "
+         << count - firstPolygon << " cells, the first is cell " << firstBad << " with "
+         << array->GetComponent(firstBad, 0) << "; the side of the filter is used there.";
+    this->SideErrorText = text.str();
+  }
 }
 
 SurfacePreparation::~SurfacePreparation() = default;
 
 BuildKey SurfacePreparation::MakeKey(vtkPolyData* input, const PreparationOptions& options)
 {
-  return MakeBuildKey(input,
+  return MakeBuildKey(input, options.CellSides,
     { static_cast<double>(options.TouchedSide), static_cast<double>(options.Engine),
       options.Cleaning.MergeTolerance, options.Cleaning.AbsoluteTolerance ? 1.0 : 0.0,
       options.AutomaticCrackWidth ? 1.0 : 0.0, options.CrackWidth });
@@ -139,7 +196,8 @@ void SurfacePreparation::FollowOn(std::shared_ptr<const SurfacePreparation> earl
 {
   // What was without area may have some now, and triangles in its place.
   if (earlier->Found.FlatTriangles > 0 || earlier->InputKey.Sizes != this->InputKey.Sizes ||
-    earlier->InputKey.Properties != this->InputKey.Properties)
+    earlier->InputKey.Properties != this->InputKey.Properties ||
+    earlier->CellSides != this->CellSides)
   {
     return;
   }
@@ -213,8 +271,10 @@ bool SurfacePreparation::MovePoints(std::vector<Vec3>& points) const
 CleaningResult SurfacePreparation::Run(const ProgressCall& progress)
 {
   CleanedMesh cleaned;
+  CleaningOptions cleaning = this->Options.Cleaning;
+  cleaning.CellSides = this->CellSides.empty() ? nullptr : &this->CellSides;
   const CleaningResult result =
-    CleanSurface(this->Input, this->Options.Cleaning, progress, cleaned, this->ErrorText);
+    CleanSurface(this->Input, cleaning, progress, cleaned, this->ErrorText);
   if (result != CleaningResult::Done)
   {
     return result;

@@ -15,6 +15,7 @@
 #include <vector>
 
 class vtkCellArray;
+class vtkDataArray;
 class vtkIdTypeArray;
 class vtkPoints;
 class vtkPolyData;
@@ -26,10 +27,17 @@ struct PreparationOptions
 {
   CleaningOptions Cleaning;
   Side TouchedSide = Side::Automatic;
+  /// The side of each cell, as the number of one of the first three Sides, from CheckSideArray();
+  /// null: TouchedSide for all. It is read, and let go of, when a SurfacePreparation is made.
+  vtkSmartPointer<vtkDataArray> CellSides;
   EngineKind Engine = EngineKind::Automatic;
   bool AutomaticCrackWidth = true;
   double CrackWidth = 0.0; ///< [world unit]; ignored where it is automatic
 };
+
+/// What keeps an array from giving the sides of an input's cells, as the end of a sentence; empty
+/// where nothing does.
+std::string CheckSideArray(vtkDataArray* array, bool isOfCells, vtkPolyData* input);
 
 /// @brief What a vtkGodObjectFilter makes of one geometry, without its pipeline.
 ///
@@ -71,6 +79,9 @@ public:
 
   /// Why Run() failed; empty otherwise.
   const std::string& Error() const { return this->ErrorText; }
+  /// What is wrong with single values of the side array, where TouchedSide is in their place; empty
+  /// otherwise. Known from the start.
+  const std::string& SideError() const { return this->SideErrorText; }
   /// What is odd about the input, though it was good enough; empty otherwise.
   const std::string& Warning() const { return this->WarningText; }
 
@@ -89,6 +100,7 @@ private:
     Same,
     Other
   };
+  void ReadSides();
   bool HasSameCells() const;
   bool MovePoints(std::vector<Vec3>& points) const;
 
@@ -97,6 +109,8 @@ private:
   BuildKey InputKey;
   std::string ErrorText;
   std::string WarningText;
+  std::string SideErrorText;
+  std::vector<Side> CellSides; ///< one a cell of the input; empty where none was given
   std::shared_ptr<const TriangleSurface> Built;
   CleaningReport Found;
   double CrackWidthInUse = 0.0;

@@ -33,7 +33,19 @@ public:
   std::shared_ptr<const haptics::TriangleSurface> MadeFor;
   vtkMTimeType MadeAt = 0;
   std::string Said; // what was wrong with them
+
+  std::string SaidOfSides;
+  std::string SaidOfSideValues;
+
+  /// The array that the filter is told to take for something.
+  static vtkHapticProperties::ChosenArray Choose(
+    vtkGodObjectFilter* filter, int index, vtkPolyData* geometry);
 };
+
+static_assert(
+  static_cast<int>(vtkGodObjectFilter::SIDE_ARRAY) == vtkHapticProperties::NUMBER_OF_PROPERTIES &&
+    static_cast<int>(vtkGodObjectFilter::MIXED_SIDES) == static_cast<int>(haptics::Side::Mixed),
+  "no index is given twice, and both list the same sides");
 
 vtkStandardNewMacro(vtkGodObjectFilter);
 
@@ -88,22 +100,7 @@ std::shared_ptr<const haptics::SurfaceProperties> vtkGodObjectFilter::GetSurface
 std::shared_ptr<const haptics::SurfaceProperties> vtkGodObjectFilter::MakeProperties(
   vtkPolyData* geometry, const std::shared_ptr<const haptics::TriangleSurface>& surface)
 {
-  const auto choose = [&](int property)
-  {
-    vtkHapticProperties::ChosenArray chosen;
-    vtkInformation* const wanted = this->GetInputArrayInformation(property);
-    const char* const name = wanted->Get(vtkDataObject::FIELD_NAME());
-    if ((name && *name) || wanted->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()))
-    {
-      int association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
-      chosen.Array = this->GetInputArrayToProcess(property, geometry, association);
-      chosen.IsPerCell = association == vtkDataObject::FIELD_ASSOCIATION_CELLS;
-      // What ParaView calls the choice of none.
-      const bool isNone = name && std::strcmp(name, "None") == 0;
-      chosen.Missing = chosen.Array || isNone ? "" : name ? name : "of the attribute asked for";
-    }
-    return chosen;
-  };
+  const auto choose = [&](int property) { return vtkInternals::Choose(this, property, geometry); };
   vtkInternals& internals = *this->Internals;
   const vtkMTimeType now = internals.Properties->GetMTime();
   const bool isSame = internals.MadeFor == surface && internals.MadeAt == now;
@@ -121,9 +118,47 @@ std::shared_ptr<const haptics::SurfaceProperties> vtkGodObjectFilter::MakeProper
   return made;
 }
 
-haptics::PreparationOptions vtkGodObjectFilter::GetOptions() const
+vtkHapticProperties::ChosenArray vtkGodObjectFilter::vtkInternals::Choose(
+  vtkGodObjectFilter* filter, int index, vtkPolyData* geometry)
+{
+  vtkHapticProperties::ChosenArray chosen;
+  vtkInformation* const wanted = filter->GetInputArrayInformation(index);
+  const char* const name = wanted->Get(vtkDataObject::FIELD_NAME());
+  if ((name && *name) || wanted->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()))
+  {
+    int association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
+    chosen.Array = filter->GetInputArrayToProcess(index, geometry, association);
+    chosen.IsPerCell = association == vtkDataObject::FIELD_ASSOCIATION_CELLS;
+    // What ParaView calls the choice of none.
+    const bool isNone = name && std::strcmp(name, "None") == 0;
+    chosen.Missing = chosen.Array || isNone ? "" : name ? name : "of the attribute asked for";
+  }
+  return chosen;
+}
+
+haptics::PreparationOptions vtkGodObjectFilter::GetOptions(vtkPolyData* geometry)
 {
   haptics::PreparationOptions options;
+  const vtkHapticProperties::ChosenArray sides = vtkInternals::Choose(this, SIDE_ARRAY, geometry);
+  std::string problem;
+  if (sides.Array)
+  {
+    problem = haptics::CheckSideArray(sides.Array, sides.IsPerCell, geometry);
+    options.CellSides = problem.empty() ? sides.Array : nullptr;
+    const char* const name = sides.Array->GetName();
+    problem = problem.empty()
+      ? problem
+      : std::string("The array ") + (name ? name : "without a name") + " for the side " + problem;
+  }
+  else if (!sides.Missing.empty())
+  {
+    problem = "There is no array " + sides.Missing + " for the side";
+  }
+  if (!problem.empty() && problem != this->Internals->SaidOfSides)
+  {
+    vtkErrorMacro(<< problem << "; the side of the filter is used.");
+  }
+  this->Internals->SaidOfSides = problem;
   options.Cleaning = { this->MergeTolerance, this->MergeToleranceIsAbsolute };
   options.TouchedSide = static_cast<haptics::Side>(this->Side);
   options.Engine = static_cast<haptics::EngineKind>(this->Engine);
@@ -151,6 +186,11 @@ bool vtkGodObjectFilter::Take(
     vtkErrorMacro(<< prepared->Error());
     return false;
   }
+  if (!prepared->SideError().empty() && prepared->SideError() != this->Internals->SaidOfSideValues)
+  {
+    vtkErrorMacro(<< prepared->SideError());
+  }
+  this->Internals->SaidOfSideValues = prepared->SideError();
   this->Internals->Built = prepared;
   return true;
 }
@@ -167,7 +207,7 @@ int vtkGodObjectFilter::RequestData(
     vtkErrorMacro("There is no input to touch. Connect a vtkPolyData with polygons or strips.");
     return 1;
   }
-  const haptics::PreparationOptions options = this->GetOptions();
+  const haptics::PreparationOptions options = this->GetOptions(input);
   if (!this->Internals->Built ||
     !(this->Internals->Built->Key() == haptics::SurfacePreparation::MakeKey(input, options)))
   {
@@ -324,7 +364,8 @@ const char* vtkGodObjectFilter::GetTouchedSideAsString() const
   {
     return "";
   }
-  return this->GetTouchedSide() == FRONT ? "Front" : "Both";
+  static const char* const names[] = { "Front", "Both", "Automatic", "Mixed" };
+  return names[this->GetTouchedSide()];
 }
 
 const char* vtkGodObjectFilter::GetEngineInUseAsString() const

@@ -21,6 +21,8 @@
  * modification times of the vtkPoints and vtkCellArray objects; code that writes into their memory
  * has to call their Modified().
  *
+ * Which side of each cell is touched, an array of the input can tell: see SetSide().
+ *
  * How the surface feels, by constants and by arrays of the input, is the business of
  * GetProperties() and SetInputArrayToProcess().
  *
@@ -64,9 +66,16 @@ public:
 
   enum SideType
   {
-    FRONT = 0,         ///< only the side that the normals point to, as in the paper
-    BOTH = 1,          ///< no path crosses any triangle, from either side
-    AUTOMATIC_SIDE = 2 ///< FRONT where closed, oriented and not inside out; BOTH elsewhere
+    FRONT = 0,          ///< only the side that the normals point to, as in the paper
+    BOTH = 1,           ///< no path crosses any triangle, from either side
+    AUTOMATIC_SIDE = 2, ///< FRONT where closed, oriented and not inside out; BOTH elsewhere
+    MIXED_SIDES = 3     ///< told by GetTouchedSide() where cells differ; not to be set
+  };
+
+  /// The index for SetInputArrayToProcess() beside those of vtkHapticProperties::PropertyType.
+  enum ArrayType
+  {
+    SIDE_ARRAY = 5 ///< of cells: a SideType each, see SetSide()
   };
 
   enum EngineType
@@ -81,6 +90,18 @@ public:
   /**
    * @brief Which side of the triangles can be touched. Default AUTOMATIC_SIDE; other values are
    * clamped. GetTouchedSide() tells what it came to.
+   *
+   * A cell array can choose for each cell, so that one mesh has closed solids that are touched from
+   * their fronts, and open sheets that are touched from both sides:
+   *
+   *     filter->SetInputArrayToProcess(vtkGodObjectFilter::SIDE_ARRAY, 0, 0,
+   *       vtkDataObject::FIELD_ASSOCIATION_CELLS, "sides");
+   *
+   * Its values are FRONT (0), BOTH (1) and AUTOMATIC_SIDE (2: what that comes to for the surface as
+   * a whole). Where a value is none of these it is an error, and Side is used for that cell; for
+   * all cells where the array is not there, is not of cells, or has another size. Of equal
+   * triangles that face the same way one is kept, with the sides of all. Another array builds the
+   * surface anew.
    */
   vtkSetClampMacro(Side, int, FRONT, AUTOMATIC_SIDE);
   vtkGetMacro(Side, int);
@@ -161,10 +182,11 @@ public:
   ///@{
   /**
    * @brief To build on another thread, in C++ only: make a haptics::SurfacePreparation with
-   * GetOptions(), Run() it elsewhere, and Take() it with its result. Take() reports errors and
-   * warnings as Update() does, and returns whether there is a surface. The output is not made.
+   * GetOptions() for the geometry, Run() it elsewhere, and Take() it with its result. These two
+   * report errors and warnings as Update() does. Take() returns whether there is a surface; the
+   * output is not made.
    */
-  haptics::PreparationOptions GetOptions() const;
+  haptics::PreparationOptions GetOptions(vtkPolyData* geometry);
   bool Take(
     const std::shared_ptr<haptics::SurfacePreparation>& prepared, haptics::CleaningResult result);
   ///@}
@@ -193,14 +215,14 @@ public:
   vtkIdType GetNumberOfInsideOutComponents() const; ///< closed, with normals pointing inwards
   bool GetClosed() const;                           ///< no boundary and no non-manifold edge
   bool GetOriented() const;                         ///< no flipped and no non-manifold edge
-  int GetTouchedSide() const;                       ///< FRONT or BOTH
+  int GetTouchedSide() const;                       ///< FRONT, BOTH or MIXED_SIDES
   int GetEngineInUse() const;                       ///< what AUTOMATIC_ENGINE came to
   double GetCrackWidthInUse() const;                ///< [world unit]
   ///@}
 
   ///@{
   /**
-   * @brief "Front", "Both"; "BruteForce", "Embree", "Exact"; empty without a surface.
+   * @brief "Front", "Both", "Mixed"; "BruteForce", "Embree", "Exact"; empty without a surface.
    */
   const char* GetTouchedSideAsString() const;
   const char* GetEngineInUseAsString() const;

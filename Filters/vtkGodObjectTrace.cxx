@@ -174,7 +174,7 @@ vtkGodObjectFilter* vtkGodObjectTrace::PrepareSurface(vtkPolyData* surface)
   // Only points and cells where no property reads more: the filter inside must not copy data that
   // nobody will look at.
   bool needsData = this->GetProperties()->GetTextureImage() != nullptr;
-  for (int i = 0; i < vtkHapticProperties::NUMBER_OF_PROPERTIES; ++i)
+  for (int i = 0; i <= vtkGodObjectFilter::SIDE_ARRAY; ++i) // the properties' arrays come first
   {
     vtkInformation* const chosen = this->GetInputArrayInformation(i);
     this->Preparation->GetInputArrayInformation(i)->Copy(chosen);

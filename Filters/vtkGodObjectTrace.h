@@ -108,7 +108,8 @@ public:
 
   ///@{
   /**
-   * @brief As in vtkGodObjectFilter, for surfaces that do not come from one.
+   * @brief As in vtkGodObjectFilter, for surfaces that do not come from one. An array of sides is
+   * chosen with vtkGodObjectFilter::SIDE_ARRAY, of port 1 too.
    */
   void SetSide(int side);
   int GetSide() const;

@@ -212,7 +212,9 @@ void HapticSurface::FollowGeometry(const PullSettings& settings, std::string& er
       ", not vtkPolyData; put a vtkGeometryFilter before it";
     return;
   }
-  const PreparationOptions options = this->Preparation->GetOptions();
+  this->PreparationError.clear();
+  const PreparationOptions options = this->Preparation->GetOptions(geometry);
+  this->TellPreparationError(error);
   if (!this->NeedsBaking && this->Base &&
     this->Base->Key() == SurfacePreparation::MakeKey(geometry, options))
   {
@@ -361,9 +363,11 @@ void HapticSurface::TakeBuild(const PullSettings& settings, std::string& error)
   }
   if (!done->Snapshot())
   {
-    error = done->Error().empty() ? this->PreparationError : done->Error();
+    error +=
+      (error.empty() ? "" : " ") + (done->Error().empty() ? this->PreparationError : done->Error());
     return;
   }
+  this->TellPreparationError(error);
   const bool isOtherGeometry = done->Preparation() != this->Base;
   const bool isOtherFrame = !this->InForce || !AreSame(done->Matrix(), this->Baked);
   this->InForce = done->Snapshot();
@@ -461,6 +465,12 @@ void HapticSurface::MakeProperties(std::string& error)
   this->FeltBy = this->Kept;
   this->FeltFor = this->InForce;
   this->FeltAt = changed;
+  this->TellPreparationError(error);
+}
+
+/// What was reported though the surface can be touched.
+void HapticSurface::TellPreparationError(std::string& error) const
+{
   error += (error.empty() || this->PreparationError.empty() ? "" : " ") + this->PreparationError;
 }
 

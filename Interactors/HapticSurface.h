@@ -142,6 +142,7 @@ private:
   void TakeBuild(const PullSettings& settings, std::string& error);
   void KeepAttributes(vtkPolyData* geometry);
   void MakeProperties(std::string& error);
+  void TellPreparationError(std::string& error) const;
   void KeepCellIds();
   static void KeepError(vtkObject* caller, unsigned long event, void* clientData, void* text);
 

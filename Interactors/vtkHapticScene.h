@@ -138,8 +138,9 @@ public:
   vtkHapticProperties* GetSurfaceProperties(int id);
   /**
    * Chooses the data array of the surface that a property comes from (a number of
-   * vtkHapticProperties::PropertyType): vtkDataObject::FIELD_ASSOCIATION_POINTS or _CELLS, and its
-   * name; none where that is null or empty. False where there is no such id.
+   * vtkHapticProperties::PropertyType), or the side of each cell (vtkGodObjectFilter::SIDE_ARRAY):
+   * vtkDataObject::FIELD_ASSOCIATION_POINTS or _CELLS, and its name; none where that is null or
+   * empty. False where there is no such id.
    */
   bool SetSurfacePropertyArray(int id, int property, int association, const char* name);
   /** Whether a surface can be felt now: shown, not gripped, its geometry good at least once. */
