@@ -62,7 +62,8 @@ public:
   /**
    * How it feels. Null, the default: the scene's stiffness and nothing else. The arrays are chosen
    * as by vtkAlgorithm::SetInputArrayToProcess(), with the indices of
-   * vtkHapticProperties::PropertyType; port and connection are not looked at.
+   * vtkHapticProperties::PropertyType and vtkGodObjectFilter::SIDE_ARRAY; port and connection are
+   * not looked at.
    */
   void SetHapticProperties(vtkHapticProperties* properties);
   vtkHapticProperties* GetHapticProperties();

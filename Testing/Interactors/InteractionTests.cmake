@@ -14,6 +14,7 @@ haptics_add_gtest(TestHapticScene
   TestHapticSceneWorkspace.cxx
   TestMovingActors.cxx
   TestSceneProperties.cxx
+  TestSceneSides.cxx
   TestSceneEvents.cxx
   LIBRARIES Haptics::Devices Haptics::Filters Haptics::Interactors VTK::FiltersCore
             VTK::FiltersSources VTK::RenderingOpenGL2)

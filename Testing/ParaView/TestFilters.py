@@ -118,6 +118,32 @@ class TestFilters(unittest.TestCase):
         surface.Properties.Stiffness = 250.0
         self.assertAlmostEqual(force(), 250.0 * 0.003, 5)
 
+    def test_an_array_chooses_the_side_of_each_cell(self):
+        # Two balls in one surface: one felt from its front, the other from within too.
+        balls = [self.make("Sphere", Center=[x, 0, 0], Radius=1.0) for x in (0.0, 5.0)]
+        parts = [self.make("Calculator", Input=ball, ResultArrayName="sides", Function=str(i),
+                           AttributeType="Cell Data") for i, ball in enumerate(balls)]
+        surface = self.make("GodObjectFilter", Input=self.make("AppendGeometry", Input=parts))
+        paths = [self.make("Line", Point1=[x, 0, 0.5], Point2=[x, 0, 1.1], Resolution=100)
+                 for x in (0.0, 5.0)]
+        traces = [self.make("GodObjectTrace", Path=path, Surface=surface) for path in paths]
+
+        def held():
+            return [point_arrays(servermanager.Fetch(trace))["ActiveConstraints"].GetValue(100) > 0
+                    for trace in traces]
+
+        self.assertEqual(held(), [False, False], "closed: Automatic is Front")
+        domain = surface.GetProperty("SideArray").SMProperty.GetDomain("array_list")
+        names = [domain.GetString(i) for i in range(domain.GetNumberOfStrings())]
+        self.assertIn("sides", names)
+        self.assertNotIn("Normals", names, "a point array")
+        surface.SideArray = ["CELLS", "sides"]
+        self.assertEqual(held(), [False, True])
+        side = servermanager.Fetch(surface).GetFieldData().GetAbstractArray("TouchedSide")
+        self.assertEqual(side.GetValue(0), "Mixed")
+        surface.SideArray = ["CELLS", ""]
+        self.assertEqual(held(), [False, False])
+
     def test_a_trace_takes_any_surface(self):
         path = self.make("Line", Point1=[0, 0, 1.5], Point2=[0, 0, 0.9], Resolution=100)
         sphere = self.make("Sphere", Radius=1.0, ThetaResolution=64, PhiResolution=64)

@@ -73,6 +73,22 @@ class TestHapticScene(SceneTest):
             self.hand.step(10)
             self.assertEqual(self.touched_surface().GetNumberOfPolys(), count, selector)
 
+    def test_an_array_chooses_the_side_of_each_cell(self):
+        balls = [self.make("Sphere", Center=[x, 0, 0]) for x in (0.0, 2.0)]
+        parts = [self.make("Calculator", Input=ball, ResultArrayName="sides", Function=str(i),
+                           AttributeType="Cell Data") for i, ball in enumerate(balls)]
+        display = self.touch(self.make("AppendGeometry", Input=parts))
+        domain = display.GetProperty("HapticSideArray").SMProperty.GetDomain("array_list")
+        names = [domain.GetString(i) for i in range(domain.GetNumberOfStrings())]
+        self.assertIn("sides", names)
+        self.assertNotIn("Normals", names, "an array of points")
+        for array, side in (("", "Front"), ("sides", "Mixed"), ("", "Front")):
+            display.HapticSideArray = ["CELLS", array]
+            simple.Render(self.view)
+            self.hand.step(10)
+            touched = self.touched_surface().GetFieldData().GetAbstractArray("TouchedSide")
+            self.assertEqual(touched.GetValue(0), side)
+
     def test_the_touch_follows_transforms_and_filters_upstream(self):
         source = self.make("Sphere", ThetaResolution=40, PhiResolution=40)
         display = self.touch(source)
