@@ -160,7 +160,8 @@ bool vtkHapticScene::PullState()
 {
   this->Servo->Update();
   this->PullRecords();
-  if (this->Engaged && !this->Servo->IsRunning())
+  // As of the servo's own last look, so that its message is there.
+  if (this->Engaged && this->Servo->GetState() != vtkHapticServo::Running)
   {
     this->Engaged = false;
     this->ErrorMessage = this->Servo->GetErrorMessage();
@@ -170,6 +171,10 @@ bool vtkHapticScene::PullState()
   const bool changed = this->ShowState();
   this->ObeyButtons();
   const bool carried = this->CarryGripped();
+  if (this->Internal->Latest) // what came before has been probed by now
+  {
+    this->Internal->Surfaces.Forget(this->Internal->Latest->Generation);
+  }
   this->Internal->Events.Dispatch(this);
   return changed || carried;
 }
@@ -227,7 +232,6 @@ void vtkHapticScene::PullRecords()
     this->Internal->Latest = records.back();
     this->Internal->LatestCell = this->Internal->Surfaces.Locate(records.back());
     this->Internal->Events.EndOfTicks(this->Internal->Surfaces, this);
-    this->Internal->Surfaces.Forget(records.back().Generation);
   }
 }
 

@@ -38,9 +38,11 @@ void vtkHapticScene::ObeyButtons()
     {
       auto probe = vtkSmartPointer<vtkHapticProbe>::New();
       this->Internal->Surfaces.Probe(tick, probe);
-      this->Landmarks->Drop(probe);
-      this->Internal->Events.Add(
-        vtkHapticScene::LandmarkEvent, this->Landmarks->GetNumberOfLandmarks());
+      if (this->Landmarks->Drop(probe) >= 0)
+      {
+        this->Internal->Events.Add(
+          vtkHapticScene::LandmarkEvent, this->Landmarks->GetNumberOfLandmarks());
+      }
     }
   }
   const bool held = this->Internal->Latest && this->ClutchButton >= 0 &&

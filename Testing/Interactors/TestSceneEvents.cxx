@@ -13,11 +13,13 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace
@@ -214,6 +216,29 @@ TEST(HapticProbe, FollowsAMirroredActorAndNewColours)
   hand.MoveTo(-0.004);
   hand.MoveTo(-0.005);
   EXPECT_NEAR(hand.Scene->GetProbe()->GetValue("Cold"), -3.0, 1e-12);
+}
+
+TEST(SceneEvents, AButtonDropsALandmarkThoughTheSurfacesChangeBeforeTheSceneLooks)
+{
+  LedHand hand;
+  hand.Scene->AddSurface(MakeTable(0.0));
+  hand.Device->SetPosition(0.01, 0.02, -0.002);
+  hand.Scene->Step(1);
+  hand.Device->SetPosition(0.01, 0.02, 0.002);
+  ASSERT_TRUE(hand.Scene->Engage()) << hand.Scene->GetErrorMessage();
+  const auto letTicksGoBy = []
+  { std::this_thread::sleep_for(std::chrono::milliseconds(30)); };
+  letTicksGoBy();
+  hand.Device->SetPosition(0.01, 0.02, -0.002);
+  letTicksGoBy();
+  hand.Scene->Update();
+  ASSERT_TRUE(hand.Scene->GetTouching());
+  hand.Device->SetButtons(1);
+  letTicksGoBy();
+  hand.Scene->SetClutched(true); // nothing is touched from now on
+  letTicksGoBy();
+  hand.Scene->Update();
+  EXPECT_EQ(hand.Scene->GetLandmarks()->GetNumberOfLandmarks(), 1);
 }
 
 TEST(HapticLandmarks, DropListUndoAndExport)
