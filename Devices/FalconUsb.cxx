@@ -203,13 +203,6 @@ std::vector<libusb_device*> FalconUsb::FindDevices() const
   return devices;
 }
 
-int FalconUsb::CountDevices() const
-{
-  const std::vector<libusb_device*> devices = this->FindDevices();
-  std::for_each(devices.begin(), devices.end(), libusb_unref_device);
-  return static_cast<int>(devices.size());
-}
-
 void FalconUsb::Open(int index)
 {
   const std::vector<libusb_device*> devices = this->FindDevices();

@@ -77,8 +77,6 @@ public:
   FalconUsb(const FalconUsb&) = delete;
   FalconUsb& operator=(const FalconUsb&) = delete;
 
-  /// Falcons that are plugged in now.
-  int CountDevices() const;
   /// Falcons that were plugged in since the object was made, those found at first included.
   unsigned int GetArrivals() const { return this->Arrivals; }
 

@@ -51,7 +51,6 @@ void Watchdog::Run()
       isBiting = true;
       // Halted first: whoever learns of the bite may resume.
       this->Channel.Halt();
-      this->Bites.fetch_add(1);
       this->Bitten.store(true, std::memory_order_release);
     }
   }

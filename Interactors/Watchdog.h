@@ -39,8 +39,6 @@ public:
       this->Bitten.exchange(false, std::memory_order_acq_rel);
   }
   ///@}
-  /// How often it has halted the channel. Any thread.
-  std::uint64_t GetNumberOfBites() const noexcept { return this->Bites.load(); }
 
 private:
   void Run();
@@ -50,7 +48,6 @@ private:
   std::atomic<std::uint64_t> Fed{ 0 };
   std::uint64_t NextFeed = 1;
   std::atomic<bool> Bitten{ false };
-  std::atomic<std::uint64_t> Bites{ 0 };
   std::mutex Mutex;
   std::condition_variable Ending;
   bool End = false;
