@@ -1,6 +1,7 @@
 #include "DeviceRecording.h"
 
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <system_error>
 
@@ -103,6 +104,20 @@ bool IsWhole(const unsigned char* bytes, std::size_t size)
   std::uint32_t told = 0;
   Taker(bytes + size - ChecksumSize).Take(told);
   return told == Checksum(bytes, size - ChecksumSize);
+}
+
+/// A period is divided by, and limits are compared with.
+bool IsUsable(const RecordingHeader& header)
+{
+  return std::isfinite(header.Rate) && header.Rate > 0.0 && header.MaximumForce >= 0.0 &&
+    header.MaximumStiffness >= 0.0 && header.Damping >= 0.0 && header.Latency >= 0.0;
+}
+
+/// Servos count on time that goes on; false for a time that is no number.
+bool Follows(const RecordedTick& tick, const std::vector<RecordedTick>& ticks)
+{
+  return std::isfinite(tick.Time) &&
+    (ticks.empty() || (tick.Time > ticks.back().Time && tick.Tick > ticks.back().Tick));
 }
 
 std::string SystemError()
@@ -227,6 +242,11 @@ bool ReadRecording(const std::string& fileName, Recording& recording, std::strin
     return fail("was made by another version: its records have " + std::to_string(recordSize) +
       " bytes, not " + std::to_string(RecordSize) + ".");
   }
+  if (!IsUsable(read.Header))
+  {
+    return fail("tells of a device or a servo that cannot be: its rate must be finite and above 0, "
+                "force, stiffness, damping and latency not below 0. Record it anew.");
+  }
 
   std::array<unsigned char, RecordSize> bytes{};
   std::size_t size = 0;
@@ -240,6 +260,15 @@ bool ReadRecording(const std::string& fileName, Recording& recording, std::strin
     record.Take(tick.Position);
     record.Take(tick.Force);
     record.Take(tick.Buttons);
+    if (!Follows(tick, read.Ticks))
+    {
+      return fail("does not go on in time: tick " + std::to_string(tick.Tick) + " at " +
+        std::to_string(tick.Time) + " s comes " +
+        (read.Ticks.empty() ? "first"
+                            : "after tick " + std::to_string(read.Ticks.back().Tick) + " at " +
+              std::to_string(read.Ticks.back().Time) + " s") +
+        ". Ticks and times must be finite and increase. Record it anew.");
+    }
     read.Ticks.push_back(tick);
   }
   if (std::ferror(file.get()) != 0)

@@ -74,7 +74,8 @@ struct Recording
 };
 
 /// Reads a recording up to its last whole record. False, with the cause in `error`, where the file
-/// cannot be read, is none, or has no whole record.
+/// cannot be read, is none, or has no whole record, where a tick is not later than the one before,
+/// or where the header tells no rate or a limit below 0.
 VTKHAPTICSDEVICES_EXPORT bool ReadRecording(
   const std::string& fileName, Recording& recording, std::string& error);
 }

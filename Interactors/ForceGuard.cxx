@@ -46,8 +46,11 @@ void ForceGuard::StartSoftly(const SafetySettings& settings) noexcept
 }
 
 Vec3 ForceGuard::Force(
-  const GuardedContact& contact, const ForceModel& model, const SafetySettings& settings) noexcept
+  const GuardedContact& told, const ForceModel& model, const SafetySettings& settings) noexcept
 {
+  GuardedContact contact = told;
+  // A device may have a time of its own, and tell anything.
+  contact.Period = std::isfinite(told.Period) ? std::max(0.0, told.Period) : 0.0;
   this->Limits = 0;
   ForceModel spring = model;
   spring.Stiffness = this->Stiffener.Update(contact.Period, model.Stiffness, settings);

@@ -19,11 +19,11 @@ struct GuardedContact
   Vec3 Position{};     ///< of the HIP [m]
   Vec3 Displacement{}; ///< of the god-object from the HIP [m]
   bool Touching = false;
-  double Period = 0.0; ///< since the last tick [s]
+  double Period = 0.0; ///< since the last tick [s]; below 0 or not finite counts as 0
   /// How far surfaces that move have taken the god-object along since the last tick [m].
   Vec3 SurfaceStep{};
-  Feel Felt{};         ///< of surfaces with properties; plain: none of what follows counts
-  Vec3 Shaded{};       ///< the displacement turned by force shading [m]; only where Felt.IsShaded
+  Feel Felt{};   ///< of surfaces with properties; plain: none of what follows counts
+  Vec3 Shaded{}; ///< the displacement turned by force shading [m]; only where Felt.IsShaded
 };
 
 /// @brief From a contact to the force that a hand may be given. Servo thread.
@@ -47,8 +47,8 @@ public:
   /// The device has let go of the last force: the next one grows from zero.
   void Release() noexcept { this->Last = {}; }
   /// The force to ask for [N]; finite, and never longer than `model` allows.
-  Vec3 Force(const GuardedContact& contact, const ForceModel& model,
-    const SafetySettings& settings) noexcept;
+  Vec3 Force(
+    const GuardedContact& told, const ForceModel& model, const SafetySettings& settings) noexcept;
 
   /// What limited the last force: bits of SafetyLimit.
   std::uint32_t GetLimits() const noexcept { return this->Limits; }

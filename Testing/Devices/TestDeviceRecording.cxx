@@ -47,15 +47,21 @@ std::string FileOfThisTest()
     ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".haptic";
 }
 
-std::string WriteTicks(const std::vector<RecordedTick>& ticks)
+RecordingHeader MakeHeader()
 {
-  const std::string name = FileOfThisTest();
   RecordingHeader header;
   header.Rate = 1000.0;
   header.MaximumForce = 3.3;
   header.Damping = 0.35;
   header.WorkspaceBounds = { -1.0, 1.0, -2.0, 2.0, -3.0, 3.0 };
   header.NumberOfButtons = 2;
+  return header;
+}
+
+std::string WriteTicks(
+  const std::vector<RecordedTick>& ticks, const RecordingHeader& header = MakeHeader())
+{
+  const std::string name = FileOfThisTest();
   RecordingWriter writer;
   std::string error;
   EXPECT_TRUE(writer.Open(name, header, error)) << error;
@@ -145,6 +151,54 @@ TEST(DeviceRecording, RefusesWhatIsNoneAndTellsWhy)
   RecordingWriter writer;
   EXPECT_FALSE(writer.Open("no-such-folder/a.haptic", {}, error));
   EXPECT_NE(error.find("no-such-folder"), std::string::npos) << error;
+}
+
+TEST(DeviceRecording, RefusesTimesThatDoNotGoOn)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double time : { nan, infinity, -1.0, 0.0 }) // the tick before was at 0 s
+  {
+    std::vector<RecordedTick> ticks = MakeTicks();
+    ticks[1].Time = time;
+    Recording read;
+    std::string error;
+    EXPECT_FALSE(ReadRecording(WriteTicks(ticks), read, error)) << time;
+    EXPECT_NE(error.find("tick 1 at " + std::to_string(time)), std::string::npos) << error;
+  }
+  for (const double time : { nan, -infinity })
+  {
+    std::vector<RecordedTick> ticks = MakeTicks();
+    ticks[0].Time = time;
+    Recording read;
+    std::string error;
+    EXPECT_FALSE(ReadRecording(WriteTicks(ticks), read, error)) << time;
+    EXPECT_NE(error.find("comes first"), std::string::npos) << error;
+  }
+  std::vector<RecordedTick> ticks = MakeTicks();
+  ticks[2].Tick = 1;
+  Recording read;
+  std::string error;
+  EXPECT_FALSE(ReadRecording(WriteTicks(ticks), read, error)) << "two ticks of one number";
+}
+
+TEST(DeviceRecording, RefusesAHeaderThatNoServoCanRunWith)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  std::vector<RecordingHeader> headers(6, MakeHeader());
+  headers[0].Rate = 0.0;
+  headers[1].Rate = nan;
+  headers[2].MaximumForce = nan;
+  headers[3].MaximumStiffness = -1.0;
+  headers[4].Damping = -1.0;
+  headers[5].Latency = nan;
+  for (const RecordingHeader& header : headers)
+  {
+    Recording read;
+    std::string error;
+    EXPECT_FALSE(ReadRecording(WriteTicks(MakeTicks(), header), read, error));
+    EXPECT_NE(error.find("its rate must be"), std::string::npos) << error;
+  }
 }
 
 /// Counts warnings or errors and keeps them out of the output.

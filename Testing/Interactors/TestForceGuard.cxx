@@ -58,6 +58,26 @@ TEST(ForceGuard, LetsAForceGrowOnlyAsFastAsTheSlewLimit)
   EXPECT_EQ(guarded.Guard.GetLimits(), 0u);
 }
 
+TEST(ForceGuard, TakesATimeThatDoesNotGoOnForNone)
+{
+  for (const double period : { -0.5, std::nan(""), std::numeric_limits<double>::infinity() })
+  {
+    Guarded guarded;
+    guarded.Settings.DeviceDamping = 1.0;
+    guarded.Settings.ContactDamping = 0.2;
+    guarded.Settings.PassivityControl = true;
+    double z = 0.0;
+    const auto tick = [&](double dt) {
+      return guarded.Tick({ 0.0, 0.0, 0.005 }, { 0.0, 0.0, z -= 1e-5 }, dt)[2];
+    };
+    ASSERT_NEAR(tick(Period), 1.0, 1e-12);
+    const double stiffness = guarded.Guard.GetStiffness();
+    EXPECT_NEAR(tick(period), 1.0, 1e-12) << period << ": no time, so no growth";
+    EXPECT_NEAR(tick(Period), 2.0, 1e-12) << period << ": and on from there";
+    EXPECT_NEAR(guarded.Guard.GetStiffness(), stiffness, 0.01 * stiffness) << period;
+  }
+}
+
 TEST(ForceGuard, LetsAForceShrinkAtOnce)
 {
   Guarded guarded;
