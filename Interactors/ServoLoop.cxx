@@ -33,7 +33,9 @@ bool ServoLoop::Start(const ServoTiming& timing, std::string& error)
   std::future<int> priority = promise.get_future();
   try
   {
-    this->Guardian = std::make_unique<Watchdog>(this->Cycle.GetChannel(), timing.WatchdogTime);
+    // A servo that is in time feeds it once a period.
+    this->Guardian =
+      std::make_unique<Watchdog>(this->Cycle.GetChannel(), timing.Period + timing.WatchdogTime);
     this->Thread = std::thread(
       [this, timing, promise = std::move(promise)]() mutable
       {
@@ -109,9 +111,12 @@ void ServoLoop::Run(const ServoTiming& timing) noexcept
 
     const std::uint64_t end = MonotonicNow();
     this->Statistics.AddTick(period, end - now);
-    const std::uint64_t upcoming = std::max(next + 1, (end - start) / timing.Period + 1);
-    this->Statistics.AddMissed(upcoming - (next + 1));
-    if (!budget.Add(upcoming - next, upcoming - (next + 1)))
+    // A device that sets the pace may be early, but not put by ticks for times when it is silent.
+    const std::uint64_t passed = (end - start) / timing.Period;
+    const std::uint64_t upcoming = std::clamp(next + 1, passed + 1, passed + 2);
+    const std::uint64_t missed = upcoming - std::min(upcoming, next + 1);
+    this->Statistics.AddMissed(missed);
+    if (!budget.Add(upcoming - next, missed))
     {
       this->Cycle.End(ServoState::Overrun);
       return;

@@ -18,12 +18,11 @@ class Watchdog;
 /// How a servo thread keeps time.
 struct ServoTiming
 {
-  std::uint64_t Period = 1000000; ///< [ns], > 0
-  std::uint64_t WatchdogTime =
-    25000000; ///< [ns], > Period: a longer tick has no force, see Watchdog
-  std::uint64_t StallLimit = 500000000; ///< [ns], > Period: a longer gap between ticks is a fault
-  double MissedShare = 0.5;             ///< of deadlines that may be missed, see OverrunBudget
-  bool RealTimePriority = true;         ///< ask the system for it
+  std::uint64_t Period = 1000000;        ///< [ns], > 0
+  std::uint64_t WatchdogTime = 25000000; ///< [ns] that a tick may be due: then no force
+  std::uint64_t StallLimit = 500000000;  ///< [ns], > Period: a longer gap between ticks is a fault
+  double MissedShare = 0.5;              ///< of deadlines that may be missed, see OverrunBudget
+  bool RealTimePriority = true;          ///< ask the system for it
   bool DevicePaced = true; ///< wait for the samples of a device that sets the pace, not for a clock
 };
 
@@ -44,7 +43,8 @@ struct ServoTiming
 /// | StallLimit         | the run ends: ServoState::Stalled                                    |
 ///
 /// A device that sets the pace (DeviceChannel::SetsPace) is waited for instead of the clock; the
-/// deadlines then are what its ticks are counted against. GUI thread.
+/// deadlines then are what its ticks are counted against, and one of them may be early by a period.
+/// GUI thread.
 class VTKHAPTICSINTERACTORS_EXPORT ServoLoop
 {
 public:

@@ -221,6 +221,9 @@ bool vtkHapticServo::Update()
   const bool hasTicked = this->Internal->Cycle.UpdateLatest();
   if (state != Running && state != Stepping)
   {
+    // A run that has ended by itself still has its thread, and a watchdog that would halt the
+    // device although another servo has it.
+    this->Internal->Loop.Stop();
     this->FinishRecording();
     this->Internal->Unclaim();
   }

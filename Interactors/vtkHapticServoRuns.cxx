@@ -158,7 +158,6 @@ void vtkHapticServo::FinishRecording()
 {
   if (this->Internal->Recorder)
   {
-    this->Internal->Loop.Stop(); // a run that has ended by itself still has its thread
     std::string error;
     const bool isWhole = this->Internal->Recorder->Finish(error);
     this->CountRecordedTicks();

@@ -1,3 +1,4 @@
+#include "MonitoredChannel.h"
 #include "ServoStatistics.h"
 #include "ServoTestTools.h"
 #include "TickRecord.h"
@@ -8,9 +9,11 @@
 #include "vtkCallbackCommand.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
+#include "vtkObjectFactory.h"
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -291,6 +294,17 @@ TEST_F(HapticServo, StartsAnewAtTheHipWhenAsked)
   EXPECT_EQ(this->DeviceForce(), 0.0);
 }
 
+TEST_F(HapticServo, HasAWatchdogThatWaitsForTheNextTickToBeDue)
+{
+  this->Servo->SetRate(50.0); // a period of 20 ms
+  this->Servo->GetSafety()->SetWatchdogTime(0.005);
+  ASSERT_TRUE(this->Servo->Start());
+  this->WaitForTicks(20);
+  this->Servo->Stop();
+  EXPECT_LT(this->Servo->GetNumberOfHalts(), 10) << "not between every two ticks; on a busy "
+                                                    "machine after some";
+}
+
 TEST_F(HapticServo, DoesNotStartWithoutAnOpenDevice)
 {
   vtkNew<vtkHapticServo> servo;
@@ -329,6 +343,60 @@ TEST_F(HapticServo, AsksForNoForceWhenItsDeviceIsReplacedOrItIsDestroyed)
   EXPECT_GT(this->DeviceForce(), 0.5);
   this->Servo->SetDevice(nullptr);
   EXPECT_EQ(this->DeviceForce(), 0.0);
+}
+
+/// A device that any servo may have next, whatever became of the last one.
+class BrokenDevice : public vtkHapticDevice
+{
+public:
+  static BrokenDevice* New();
+  vtkTypeMacro(BrokenDevice, vtkHapticDevice);
+  bool Open() override
+  {
+    this->BecomeReady(this->Hand);
+    return true;
+  }
+  void Close() override { this->BecomeClosed(); }
+
+  class Channel : public haptics::MonitoredChannel
+  {
+  public:
+    std::atomic<bool> IsBroken{ false };
+
+  protected:
+    bool ReadDevice(double, haptics::DeviceSample& sample) noexcept override
+    {
+      sample.Position = { 0.0, 0.0, this->IsBroken ? std::nan("") : 0.01 };
+      return true;
+    }
+    void WriteDevice(const std::array<double, 3>&) noexcept override {}
+  };
+  const std::shared_ptr<Channel> Hand = std::make_shared<Channel>();
+};
+vtkStandardNewMacro(BrokenDevice);
+
+TEST_F(HapticServo, LeavesADeviceThatItGaveUpAlone)
+{
+  vtkNew<BrokenDevice> device;
+  ASSERT_TRUE(device->Open());
+  Listener errors(this->Servo, vtkCommand::ErrorEvent);
+  this->Servo->SetDevice(device);
+  this->Servo->GetSafety()->SetWatchdogTime(0.025);
+  ASSERT_TRUE(this->Servo->Start());
+  this->WaitForTicks(20);
+  device->Hand->IsBroken = true;
+  this->WaitForTicks(1000000);
+  ASSERT_EQ(this->Servo->GetState(), vtkHapticServo::InvalidPosition);
+
+  device->Hand->IsBroken = false;
+  vtkNew<vtkHapticServo> next;
+  next->SetDevice(device);
+  next->SetStallLimit(60.0);
+  next->GetSafety()->LoosenMissedTickShare(60.0);
+  next->GetSafety()->LoosenWatchdogTime(1.0);
+  ASSERT_TRUE(next->Start()) << next->GetErrorMessage();
+  std::this_thread::sleep_for(std::chrono::milliseconds(60));
+  EXPECT_FALSE(device->Hand->IsHalted()) << "by the watchdog of the servo before";
 }
 
 TEST_F(HapticServo, TellsByUpdateWhetherThereIsAnythingNew)

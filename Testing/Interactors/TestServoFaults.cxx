@@ -234,10 +234,11 @@ TEST(ServoFaults, ADeviceThatSetsThePaceIsTickedOnceASample)
 {
   Servo servo;
   const auto device = std::make_shared<PacingChannel>();
-  device->Hand = [](double, haptics::DeviceSample& sample)
+  std::atomic<bool> plugged{ true };
+  device->Hand = [&plugged](double, haptics::DeviceSample& sample)
   {
     sample.Position = { 0.0, 0.0, 0.001 };
-    return true;
+    return plugged.load();
   };
   servo.Timing.Period = 1000000000; // by the clock there would be one tick a second
   servo.Cycle.Begin(device, ServoState::Running);
@@ -249,7 +250,33 @@ TEST(ServoFaults, ADeviceThatSetsThePaceIsTickedOnceASample)
     ASSERT_TRUE(servo.WaitFor([&] { return device->Writes == i; }));
   }
   EXPECT_EQ(servo.Statistics.Report().Ticks, 200u);
+  plugged = false;
   device->GiveSample(); // the servo waits for one, and Stop() for the servo
+  servo.Loop.Stop();
+}
+
+TEST(ServoFaults, ADeviceThatWasFastDoesNotHideThatItIsSilentNow)
+{
+  Servo servo;
+  const auto device = std::make_shared<PacingChannel>();
+  device->Hand = [](double, haptics::DeviceSample&) { return true; };
+  servo.Timing.Period = 5000000;
+  servo.Cycle.Begin(device, ServoState::Running);
+  std::string error;
+  ASSERT_TRUE(servo.Loop.Start(servo.Timing, error)) << error;
+  for (int i = 1; i <= 300; ++i) // 1.5 s of deadlines in far less time
+  {
+    device->GiveSample();
+    while (device->Writes < i)
+    {
+      std::this_thread::yield();
+    }
+  }
+  const std::uint64_t before = servo.Statistics.Report().MissedTicks;
+  // Asked every fourth period from here on: three deadlines pass without a tick each time.
+  ASSERT_TRUE(servo.WaitFor([&] { return device->Writes >= 305; }));
+  EXPECT_GE(servo.Statistics.Report().MissedTicks, before + 4 * 3 - 1)
+    << "the one before them may have been early by a period; the last one may not be counted yet";
   servo.Loop.Stop();
 }
 
