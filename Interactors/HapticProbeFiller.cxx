@@ -58,6 +58,7 @@ void vtkHapticProbeFiller::SetContact(vtkHapticProbe* probe, const haptics::Tick
   const auto t = static_cast<std::size_t>(constraint.Triangle);
   probe->Touching = true;
   probe->Surface = touched.Surface;
+  probe->SurfaceName = touched.SurfaceName;
   probe->Cell = touched.Cell;
   std::copy(constraint.Normal.begin(), constraint.Normal.end(), probe->Normal);
 

@@ -17,8 +17,9 @@ public:
   /// What a tick's first constraint belongs to.
   struct Touched
   {
-    int Surface;    ///< id
-    vtkIdType Cell; ///< as it was given
+    int Surface;             ///< id
+    std::string SurfaceName; ///< "" for none
+    vtkIdType Cell;          ///< as it was given
     std::shared_ptr<const haptics::TriangleSurface> Snapshot;
     haptics::RigidPose Pose; ///< about as it was in the tick
   };

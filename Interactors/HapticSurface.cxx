@@ -15,22 +15,23 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <sstream>
 #include <utility>
 
 namespace haptics
 {
 namespace
 {
-/// [s]: a surface whose next update comes later than this has rested before it.
-constexpr double LongestDuration = 0.1;
+constexpr double LargestSpeed = 5.0; ///< of a surface that pushes a hand, in the hand [m/s]
 
 /// How long a change takes: while one comes with each update, or with every other one, the time
-/// from one to the next.
+/// from one to the next. A surface whose next update comes later than LongestMotion has rested
+/// before it.
 double DurationSince(double last, const PullSettings& settings)
 {
   const double since = settings.Now - last;
-  const double duration = since > 0.0 && since <= LongestDuration ? since : settings.Interval;
-  return std::clamp(duration, 0.0, LongestDuration);
+  const double duration = since > 0.0 && since <= LongestMotion ? since : settings.Interval;
+  return std::clamp(duration, 0.0, LongestMotion);
 }
 }
 
@@ -125,16 +126,22 @@ bool HapticSurface::Pull(const PullSettings& settings, std::string& error)
   const Snapshot before = this->Touched();
   const Properties feltBefore = this->Felt();
   this->Follow(settings, error);
+  if (!error.empty())
+  {
+    error += std::string(error.back() == '.' ? "" : ".") +
+      (this->Touched() ? " What was touched before stays in force." : " It cannot be touched.");
+  }
   if (this->InForce)
   {
-    this->MakeProperties(error);
+    this->MakeProperties();
   }
+  error += (error.empty() || this->Notice.empty() ? "" : " ") + std::exchange(this->Notice, {});
   return this->Touched() != before || this->Felt() != feltBefore;
 }
 
 void HapticSurface::Follow(const PullSettings& settings, std::string& error)
 {
-  const bool wasShown = this->Shown;
+  this->WasUnseen = !this->Shown;
   this->IsElsewhere = false;
   this->Shown = !this->Source || (this->Source->GetVisibility() && this->Source->GetPickable());
   if (this->Build && this->Build->IsDone())
@@ -168,7 +175,7 @@ void HapticSurface::Follow(const PullSettings& settings, std::string& error)
     moving.IsLive = settings.IsLive && !isCarried;
     this->NeedsBaking = !this->FollowMatrix(moving, error);
   }
-  if ((!wasShown || isCarried) && this->Moving)
+  if ((this->WasUnseen || isCarried) && this->Moving)
   {
     this->Moving->JumpTo(this->Placed); // what moved unseen must not push the hand now
   }
@@ -176,7 +183,13 @@ void HapticSurface::Follow(const PullSettings& settings, std::string& error)
   const bool isNew =
     !this->Tried || !(version == this->LastTried) || (hasMoved && this->WasRefused);
   // One that comes too soon for the servo waits; another may come before it is its turn.
-  const bool mayWait = settings.IsRunning && !settings.IsTaken && this->InForce;
+  // But where no time passes there is nothing to wait for.
+  const bool mayWait = settings.IsLive && !settings.IsTaken && this->InForce &&
+    (settings.Interval > 0.0 || this->IsWaiting);
+  if (std::exchange(this->IsWaiting, !this->Build && isNew && mayWait))
+  {
+    this->LastChanged += settings.Interval; // or each that waits would make the next one wait
+  }
   if (!this->Build && isNew && !mayWait)
   {
     this->Tried = true;
@@ -214,7 +227,7 @@ void HapticSurface::FollowGeometry(const PullSettings& settings, std::string& er
   }
   this->PreparationError.clear();
   const PreparationOptions options = this->Preparation->GetOptions(geometry);
-  this->TellPreparationError(error);
+  this->TellPreparationError();
   if (!this->NeedsBaking && this->Base &&
     this->Base->Key() == SurfacePreparation::MakeKey(geometry, options))
   {
@@ -239,7 +252,7 @@ bool HapticSurface::FollowMatrix(const PullSettings& settings, std::string& erro
   if (pose)
   {
     this->LastMatrixError.clear();
-    this->MoveTo(*pose, settings, error);
+    this->MoveTo(*pose, settings);
   }
   return pose.has_value();
 }
@@ -255,7 +268,7 @@ void HapticSurface::RefuseMatrix(std::string& error)
   }
 }
 
-void HapticSurface::MoveTo(const RigidPose& pose, const PullSettings& settings, std::string& error)
+void HapticSurface::MoveTo(const RigidPose& pose, const PullSettings& settings)
 {
   if (pose == this->Placed)
   {
@@ -263,25 +276,40 @@ void HapticSurface::MoveTo(const RigidPose& pose, const PullSettings& settings, 
   }
   const double duration = DurationSince(this->LastMoved, settings);
   this->LastMoved = settings.Now;
-  const double needed = this->LengthOfWay(pose) / settings.LargestSpeed;
-  if (!settings.IsLive || needed > LongestDuration)
+  const double way = this->LengthOfWay(pose);
+  const double largestSpeed = LargestSpeed * settings.Scale;
+  const bool isTooFast = settings.IsLive && way > largestSpeed * LongestMotion;
+  if (!settings.IsLive || isTooFast)
   {
     this->Moving->JumpTo(pose);
   }
   else
   {
-    this->Moving->SetLargestSpeed(settings.LargestSpeed);
+    this->Moving->SetLargestSpeed(largestSpeed);
     this->Moving->MoveTo(pose, duration);
   }
   this->Placed = pose;
   this->IsElsewhere = true;
-  const bool isTooFast = settings.IsLive && needed > LongestDuration;
-  if (isTooFast && !this->WasTooFast)
+  this->TellJump("It", isTooFast ? way : 0.0, settings, this->HasToldJump);
+}
+
+/// Once, until a motion is no jump. `way`: of the jump [world unit]; 0: it is none.
+void HapticSurface::TellJump(
+  const char* what, double way, const PullSettings& settings, bool& wasTold)
+{
+  const bool isJump = way > 0.0;
+  if (isJump && !wasTold)
   {
-    error = "it was moved faster than the 5 m/s in the device's frame that a hand can follow, and "
-            "is put in its new place without pushing the hand there; move it in smaller steps";
+    std::ostringstream text;
+    text.precision(3);
+    text << what << " was moved by " << way / settings.Scale
+         << " m in the hand from one update to the next, where a hand can be pushed by "
+         << LargestSpeed * LongestMotion << " m at most (" << LargestSpeed << " m/s for "
+         << LongestMotion << " s). It was put in its new place at once and has pushed nothing. "
+         << "Move it in smaller steps, or let the device reach farther (ScaleWorkspace).";
+    this->Notice += (this->Notice.empty() ? "" : " ") + text.str();
   }
-  this->WasTooFast = isTooFast;
+  wasTold = isJump;
 }
 
 double HapticSurface::LengthOfWay(const RigidPose& pose) const
@@ -320,11 +348,11 @@ void HapticSurface::StartBuild(
   }
   this->Build = std::make_shared<SurfaceBuild>(preparation, baked);
   if (this->Build->Prepares() && this->InForce && AreSame(baked, this->Baked) && settings.IsLive &&
-    settings.IsTaken)
+    settings.IsTaken && !this->WasUnseen)
   {
     preparation->FollowOn(this->Base);
-    this->Build->DeformFrom(
-      this->InForce, this->Deformer, DurationSince(this->LastChanged, settings));
+    this->Build->DeformFrom(this->InForce, this->Deformer,
+      DurationSince(this->LastChanged, settings), LargestSpeed * settings.Scale);
   }
   this->LastChanged = settings.Now;
   if (settings.Worker)
@@ -367,13 +395,15 @@ void HapticSurface::TakeBuild(const PullSettings& settings, std::string& error)
       (error.empty() ? "" : " ") + (done->Error().empty() ? this->PreparationError : done->Error());
     return;
   }
-  this->TellPreparationError(error);
+  this->TellPreparationError();
   const bool isOtherGeometry = done->Preparation() != this->Base;
   const bool isOtherFrame = !this->InForce || !AreSame(done->Matrix(), this->Baked);
   this->InForce = done->Snapshot();
   this->Base = done->Preparation();
   this->Deformer = done->Deformer();
   this->Baked = done->Matrix();
+  this->Jumps += done->Jump() > 0.0 ? 1 : 0;
+  this->TellJump("A point of it", done->Jump(), settings, this->HasToldLeap);
   if (isOtherGeometry)
   {
     if (!done->Deforms())
@@ -453,7 +483,7 @@ void HapticSurface::KeepAttributes(vtkPolyData* geometry)
   }
 }
 
-void HapticSurface::MakeProperties(std::string& error)
+void HapticSurface::MakeProperties()
 {
   const vtkMTimeType changed = this->Preparation->GetMTime();
   if (this->FeltBy == this->Kept && this->FeltFor == this->InForce && this->FeltAt == changed)
@@ -465,13 +495,14 @@ void HapticSurface::MakeProperties(std::string& error)
   this->FeltBy = this->Kept;
   this->FeltFor = this->InForce;
   this->FeltAt = changed;
-  this->TellPreparationError(error);
+  this->TellPreparationError();
 }
 
 /// What was reported though the surface can be touched.
-void HapticSurface::TellPreparationError(std::string& error) const
+void HapticSurface::TellPreparationError()
 {
-  error += (error.empty() || this->PreparationError.empty() ? "" : " ") + this->PreparationError;
+  this->Notice +=
+    (this->Notice.empty() || this->PreparationError.empty() ? "" : " ") + this->PreparationError;
 }
 
 void HapticSurface::KeepCellIds()

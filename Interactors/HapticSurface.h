@@ -11,6 +11,7 @@
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -32,11 +33,9 @@ struct PullSettings
   bool IsLive = false;
   /// Whether it has what was told last; else a snapshot that it has not seen must not be deformed.
   bool IsTaken = false;
-  /// Whether it runs on its own, and will.
-  bool IsRunning = false;
-  double Now = 0.0;          ///< the servo's time [s]
-  double Interval = 0.0;     ///< since the Pull() before [s]
-  double LargestSpeed = 0.0; ///< that a hand can follow [world unit / s]
+  double Now = 0.0;      ///< the servo's time [s]
+  double Interval = 0.0; ///< since the Pull() before [s]
+  double Scale = 1.0;    ///< of the workspace [world unit / m in the hand]
 };
 
 /// @brief One surface of a vtkHapticScene: where it comes from and the snapshot in force.
@@ -68,12 +67,20 @@ public:
   HapticSurface& operator=(const HapticSurface&) = delete;
 
   int Id() const { return this->Identifier; }
+  /// TouchedSurface::Identity: another one once it was put elsewhere without pushing anything.
+  std::uint64_t Identity() const
+  {
+    return static_cast<std::uint64_t>(this->Identifier) + 1 + (this->Jumps << 32); // 0 is nobody
+  }
+  /// What people call it; empty where nobody has given it a name.
+  std::string Name;
   vtkActor* Actor() const { return this->Source; }
   vtkGodObjectFilter* Filter() const { return this->Preparation; }
 
   /// Takes in what has changed since the last call. True where another snapshot is in force now
   /// than before, or other properties, or the surface was shown or hidden. Where the new geometry
-  /// is no good, `error` tells why, once for each change, and the snapshot in force stays.
+  /// is no good, `error` tells why, once for each change, and the snapshot in force stays. It also
+  /// tells where one was faster than a hand can follow. Whole sentences.
   ///
   /// With a worker a changed geometry is built beside; it comes into force at a call after that.
   /// What changes meanwhile is built next, in its newest state.
@@ -93,6 +100,8 @@ public:
   void Carry() { this->Carried = true; }
   /// A point of the frame that Pose() moves, in that of the actor's geometry.
   Vec3 PointInActor(const Vec3& point) const;
+  /// Whether it has changed and waits for IsTaken.
+  bool IsWaitingForServo() const { return this->IsWaiting; }
 
   /// Whether the last Pull() found it in another place.
   bool HasMoved() const { return this->IsElsewhere; }
@@ -136,13 +145,14 @@ private:
   bool FollowMatrix(const PullSettings& settings, std::string& error);
   void RefuseMatrix(std::string& error);
   double LengthOfWay(const RigidPose& pose) const;
-  void MoveTo(const RigidPose& pose, const PullSettings& settings, std::string& error);
+  void MoveTo(const RigidPose& pose, const PullSettings& settings);
+  void TellJump(const char* what, double way, const PullSettings& settings, bool& wasTold);
   void StartBuild(const PullSettings& settings, std::shared_ptr<SurfacePreparation> preparation,
     std::string& error);
   void TakeBuild(const PullSettings& settings, std::string& error);
   void KeepAttributes(vtkPolyData* geometry);
-  void MakeProperties(std::string& error);
-  void TellPreparationError(std::string& error) const;
+  void MakeProperties();
+  void TellPreparationError();
   void KeepCellIds();
   static void KeepError(vtkObject* caller, unsigned long event, void* clientData, void* text);
 
@@ -160,6 +170,7 @@ private:
   std::string LastConnectError;
   std::string LastMatrixError;
   std::string PreparationError;
+  std::string Notice; ///< what is told without anything being refused; whole sentences
   std::shared_ptr<SurfaceBuild> Build;
   vtkSmartPointer<vtkPolyData> BuildInput; ///< with the arrays as they were when it started
 
@@ -168,11 +179,15 @@ private:
   Matrix4 Baked = IdentityMatrix;            ///< and by which matrix
   std::shared_ptr<SurfaceDeformer> Deformer; ///< what made InForce; null where it was built
   double LastChanged = 0.0;                  ///< the geometry, the servo's time [s]
+  bool IsWaiting = false;                    ///< with a changed one, for the servo
+  bool WasUnseen = false;                    ///< before this Pull()
+  std::uint64_t Jumps = 0;
   std::shared_ptr<SurfaceMotion> Moving;
   RigidPose Placed;
   bool IsElsewhere = false;
-  double LastMoved = 0.0; ///< the servo's time [s]
-  bool WasTooFast = false;
+  double LastMoved = 0.0;   ///< the servo's time [s]
+  bool HasToldJump = false; ///< of the pose, while it goes on jumping
+  bool HasToldLeap = false; ///< of points, likewise
   bool NeedsBaking = false;
   bool WasRefused = false; ///< a geometry, for the matrix
   CellIds Ids;

@@ -56,12 +56,16 @@ void SceneEvents::Take(const TickRecord& tick, const SurfaceSet& surfaces, vtkHa
   {
     this->AddProbe(vtkHapticScene::ContactEndEvent, &tick, &surfaces, scene);
   }
-  const bool overloaded = tick.Status == UpdateStatus::Overloaded;
-  if (overloaded && !this->Overloaded)
+  if (tick.Status != this->Status)
   {
-    this->AddProbe(vtkHapticScene::OverloadEvent, &tick, &surfaces, scene);
+    this->Status = tick.Status;
+    const bool isOverload = tick.Status == UpdateStatus::Overloaded;
+    if (isOverload || tick.Status == UpdateStatus::Squeezed)
+    {
+      this->AddProbe(isOverload ? vtkHapticScene::OverloadEvent : vtkHapticScene::SqueezeEvent,
+        &tick, &surfaces, scene);
+    }
   }
-  this->Overloaded = overloaded;
   if (touching)
   {
     this->LastTouch = tick;
@@ -89,7 +93,7 @@ void SceneEvents::Stop(vtkHapticScene* scene)
     this->LastTouch.reset();
     this->AddProbe(vtkHapticScene::ContactEndEvent, nullptr, nullptr, scene);
   }
-  this->Overloaded = false;
+  this->Status = UpdateStatus::Free;
 }
 
 void SceneEvents::Dispatch(vtkHapticScene* scene)

@@ -54,9 +54,9 @@ private:
 
   std::vector<Event> Pending;
   std::vector<Press> Presses;
-  std::optional<TickRecord> LastTouch; ///< the latest tick, where it touched
-  Vec3 SlidFrom{};                     ///< TickRecord::Local when contact began or last slid
-  bool Overloaded = false;
+  std::optional<TickRecord> LastTouch;      ///< the latest tick, where it touched
+  Vec3 SlidFrom{};                          ///< TickRecord::Local when contact began or last slid
+  UpdateStatus Status = UpdateStatus::Free; ///< of the latest tick
   std::uint32_t Buttons = 0;
 };
 }

@@ -1,5 +1,7 @@
 #include "SurfaceBuild.h"
 
+#include "GodObject.h"
+
 #include <algorithm>
 #include <cmath>
 #include <new>
@@ -15,11 +17,12 @@ SurfaceBuild::SurfaceBuild(std::shared_ptr<SurfacePreparation> preparation, cons
 }
 
 void SurfaceBuild::DeformFrom(std::shared_ptr<const TriangleSurface> from,
-  std::shared_ptr<SurfaceDeformer> deformer, double duration)
+  std::shared_ptr<SurfaceDeformer> deformer, double duration, double largestSpeed)
 {
   this->Before = std::move(from);
   this->Shaper = std::move(deformer);
   this->Duration = duration;
+  this->LargestSpeed = largestSpeed;
 }
 
 bool SurfaceBuild::Deform()
@@ -37,8 +40,13 @@ bool SurfaceBuild::Deform()
   {
     this->Shaper = std::make_shared<SurfaceDeformer>(this->Before);
   }
+  const double way = this->Shaper->LongestWay(points);
+  const double needed = GodObject::Haste * way / this->LargestSpeed;
+  this->JumpedBy = needed > LongestMotion ? way : 0.0;
   std::string error; // whatever it is, building anew helps or tells
-  this->Built = this->Shaper->Deform(std::move(points), this->Duration, error);
+  this->Built = this->JumpedBy > 0.0
+    ? this->Shaper->Replace(std::move(points), error)
+    : this->Shaper->Deform(std::move(points), std::max(this->Duration, needed), error);
   return this->Built != nullptr;
 }
 

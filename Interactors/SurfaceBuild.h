@@ -14,6 +14,10 @@
 
 namespace haptics
 {
+/// How long a surface may be on its way between two updates [s]. What would take longer is put in
+/// its new place at once and pushes nothing.
+constexpr double LongestMotion = 0.1;
+
 /// @brief From a geometry and a matrix to a snapshot, on any thread.
 class SurfaceBuild : public BackgroundTask
 {
@@ -23,10 +27,11 @@ public:
   SurfaceBuild(std::shared_ptr<SurfacePreparation> preparation, const Matrix4& matrix);
 
   /// Where the geometry is the one before in another shape, the snapshot becomes `from` deformed
-  /// over `duration` [s], and nothing is cleaned or built anew. `deformer`: what made `from`; null
-  /// where it was built. Before Run(); the preparation was given what `from` was made of.
+  /// over `duration` [s], or longer where a point would be faster than `largestSpeed` [world unit /
+  /// s], and nothing is cleaned or built anew. `deformer`: what made `from`; null where it was
+  /// built. Before Run(); the preparation was given what `from` was made of.
   void DeformFrom(std::shared_ptr<const TriangleSurface> from,
-    std::shared_ptr<SurfaceDeformer> deformer, double duration);
+    std::shared_ptr<SurfaceDeformer> deformer, double duration, double largestSpeed);
 
   /// Is called with the progress, on the thread that does the work; false stops it.
   void SetProgressCall(ProgressCall call) { this->Listener = std::move(call); }
@@ -37,6 +42,9 @@ public:
   /// Whether the snapshot is the one before deformed, and what did it.
   bool Deforms() const { return this->HasDeformed; }
   const std::shared_ptr<SurfaceDeformer>& Deformer() const { return this->Shaper; }
+  /// How far a point had to go that could not in LongestMotion, so that the snapshot takes the
+  /// place of the one before at once [world unit]; else 0.
+  double Jump() const { return this->JumpedBy; }
   const Matrix4& Matrix() const { return this->Baked; }
 
   ///@{
@@ -63,6 +71,8 @@ private:
   std::shared_ptr<const TriangleSurface> Before;
   std::shared_ptr<SurfaceDeformer> Shaper;
   double Duration = 0.0;
+  double LargestSpeed = 0.0;
+  double JumpedBy = 0.0;
   ProgressCall Listener;
   CleaningResult Outcome = CleaningResult::Aborted;
   std::shared_ptr<const TriangleSurface> Built;

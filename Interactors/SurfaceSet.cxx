@@ -72,10 +72,8 @@ bool SurfaceSet::Pull(const PullSettings& settings, std::vector<std::string>& er
     this->BuildsStarted += surface->Building() && surface->Building() != before ? 1 : 0;
     if (!error.empty())
     {
-      errors.push_back("Surface " + std::to_string(surface->Id()) + ": " + error +
-        (error.back() == '.' ? "" : ".") +
-        (surface->Touched() ? " What was touched before stays in force."
-                            : " It cannot be touched."));
+      errors.push_back("Surface " + std::to_string(surface->Id()) +
+        (surface->Name.empty() ? "" : " (" + surface->Name + ")") + ": " + error);
     }
   }
   this->Changed = false;
@@ -87,6 +85,12 @@ bool SurfaceSet::HaveMoved() const
 {
   return std::any_of(this->Surfaces.begin(), this->Surfaces.end(),
     [](const std::unique_ptr<HapticSurface>& surface) { return surface->HasMoved(); });
+}
+
+bool SurfaceSet::IsWaiting() const
+{
+  return std::any_of(this->Surfaces.begin(), this->Surfaces.end(),
+    [](const std::unique_ptr<HapticSurface>& surface) { return surface->IsWaitingForServo(); });
 }
 
 bool SurfaceSet::IsBuilding() const
@@ -136,7 +140,7 @@ std::vector<TouchedSurface> SurfaceSet::Touched() const
   for (const HapticSurface* surface : this->Listed())
   {
     touched.emplace_back(surface->Touched(), surface->Motion(), surface->Felt());
-    touched.back().Identity = static_cast<std::uint64_t>(surface->Id()) + 1; // 0 is nobody
+    touched.back().Identity = surface->Identity();
     touched.back().IsGripped = surface->IsGripped();
   }
   return touched;
@@ -215,7 +219,7 @@ void SurfaceSet::Probe(const TickRecord& tick, vtkHapticProbe* probe) const
     const HapticSurface* surface = this->Find(entry->Id);
     const bool unchanged = surface && surface->Touched() == entry->Touched;
     vtkHapticProbeFiller::SetContact(probe, tick,
-      { entry->Id, this->Locate(tick).Cell, entry->Touched,
+      { entry->Id, surface ? surface->Name : "", this->Locate(tick).Cell, entry->Touched,
         surface ? surface->Pose() : RigidPose() },
       unchanged ? surface->Prepared() : nullptr);
   }

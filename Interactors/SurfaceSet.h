@@ -55,6 +55,8 @@ public:
 
   /// Whether a surface that can be touched was in another place at the last Pull().
   bool HaveMoved() const;
+  /// Whether a surface has changed before the servo has come to its last change.
+  bool IsWaiting() const;
   /// Whether a surface is being built beside the GUI thread.
   bool IsBuilding() const;
   /// 0 to 1, over all that is being built or was since nothing was; 1 where nothing is.

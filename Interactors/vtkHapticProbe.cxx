@@ -64,6 +64,13 @@ double vtkHapticProbe::GetValue(const char* array)
   return values && values->GetNumberOfTuples() > 0 ? values->GetComponent(0, 0) : vtkMath::Nan();
 }
 
+std::string vtkHapticProbe::GetSurfaceName()
+{
+  return this->SurfaceName.empty() && this->Surface >= 0
+    ? "surface " + std::to_string(this->Surface)
+    : this->SurfaceName;
+}
+
 std::string vtkHapticProbe::GetText()
 {
   if (!this->Touching)
@@ -72,7 +79,7 @@ std::string vtkHapticProbe::GetText()
   }
   std::ostringstream text;
   text.precision(5);
-  text << "surface " << this->Surface << "   cell " << this->Cell << "\n"
+  text << this->GetSurfaceName() << "   cell " << this->Cell << "\n"
        << this->Position[0] << ", " << this->Position[1] << ", " << this->Position[2];
   int lines = 0;
   WriteValues(text, this->PointValues, lines);

@@ -41,8 +41,10 @@ public:
 
   /** Whether there is a contact; where not, ids are -1 and there are no values. */
   vtkGetMacro(Touching, bool);
-  vtkGetMacro(Time, double);    ///< of the tick [s] since the servo's start
-  vtkGetMacro(Surface, int);    ///< id in the scene
+  vtkGetMacro(Time, double); ///< of the tick [s] since the servo's start
+  vtkGetMacro(Surface, int); ///< id in the scene
+  /** What people call it (vtkHapticScene::SetSurfaceName()); else "surface" and the id. */
+  std::string GetSurfaceName();
   vtkGetMacro(Cell, vtkIdType); ///< id of the cell as it was given
   /** Id of a corner of the triangle as it was given, corner 0 to 2; -1 elsewhere. */
   vtkIdType GetPointId(int corner);
@@ -94,6 +96,7 @@ private:
   bool Touching = false;
   double Time = 0.0;
   int Surface = -1;
+  std::string SurfaceName;
   vtkIdType Cell = -1;
   vtkIdType PointIds[3] = { -1, -1, -1 };
   double Weights[3] = { 0.0, 0.0, 0.0 };

@@ -143,10 +143,16 @@ int vtkHapticScene::Step(int n)
   while (done < n)
   {
     // The servo keeps 16,384 records: drain them before they are lost.
-    const int portion = std::min(n - done, 8192);
+    const bool isWaiting = this->Internal->Surfaces.IsWaiting();
+    const int portion = isWaiting ? 1 : std::min(n - done, 8192);
     const int stepped = this->Servo->Step(portion);
     done += stepped;
     this->PullState();
+    if (isWaiting)
+    {
+      this->PullSurfaces(); // it takes part as soon as it can
+      this->FinishBuilds();
+    }
     if (stepped < portion)
     {
       this->ErrorMessage = this->Servo->GetErrorMessage();
@@ -251,6 +257,8 @@ bool vtkHapticScene::ShowState()
   const bool live = state == vtkHapticServo::Running || state == vtkHapticServo::Stepping;
   const haptics::Vec3 force = live ? latest.WorldForce : haptics::Vec3{};
   const bool touching = live && latest.NumberOfConstraints > 0;
+  const bool squeezed = live && latest.Status == haptics::UpdateStatus::Squeezed;
+  const bool overloaded = live && latest.Status == haptics::UpdateStatus::Overloaded;
   const haptics::SceneCell cell = touching ? this->Internal->LatestCell : haptics::SceneCell();
 
   if (!live)
@@ -266,6 +274,7 @@ bool vtkHapticScene::ShowState()
     !std::equal(latest.Hip.begin(), latest.Hip.end(), this->HapticInterfacePoint) ||
     !std::equal(latest.GodObject.begin(), latest.GodObject.end(), this->GodObject) ||
     !std::equal(force.begin(), force.end(), this->Force) || touching != this->Touching ||
+    squeezed != this->Squeezed || overloaded != this->Overloaded ||
     (this->Actor && this->Internal->LandmarksShown != this->Landmarks->GetMTime());
 
   std::copy(latest.Hip.begin(), latest.Hip.end(), this->HapticInterfacePoint);
@@ -273,6 +282,8 @@ bool vtkHapticScene::ShowState()
   std::copy(force.begin(), force.end(), this->Force);
   this->Penetration = touching ? latest.Penetration : 0.0;
   this->Touching = touching;
+  this->Squeezed = squeezed;
+  this->Overloaded = overloaded;
   this->TouchedSurface = cell.Surface;
   this->TouchedCell = cell.Cell;
 
@@ -312,7 +323,7 @@ void vtkHapticScene::ShowInPicture()
     this->Overlay->SetForce(vtkMath::Norm(this->Force));
     const double limit = this->Servo->GetEffectiveMaximumForce();
     this->Overlay->SetMaximumForce(limit > 0.0 && limit < VTK_DOUBLE_MAX ? limit : 3.3);
-    this->Overlay->SetReadout(this->Overlay->GetShowReadout() ? this->GetProbe()->GetText() : "");
+    this->Overlay->SetReadout(this->Overlay->GetShowReadout() ? this->DescribeContact() : "");
   }
   if (this->Actor)
   {
@@ -333,6 +344,15 @@ void vtkHapticScene::ShowInPicture()
       this->Actor->SetLandmarks(this->Landmarks->GetOutput());
     }
   }
+}
+
+std::string vtkHapticScene::DescribeContact()
+{
+  const std::string contact = this->GetProbe()->GetText();
+  const char* state = this->Squeezed ? "surfaces leave no room here: no force"
+    : this->Overloaded               ? "too many triangles here: held"
+                                     : "";
+  return contact + (contact.empty() || !*state ? "" : "\n") + state;
 }
 
 vtkGodObjectActor* vtkHapticScene::GetGodObjectActor()
@@ -397,6 +417,8 @@ void vtkHapticScene::PrintSelf(ostream& os, vtkIndent indent)
   print("Force [N]", this->Force);
   os << indent << "Penetration [world unit]: " << this->Penetration << "\n";
   os << indent << "Touching: " << (this->Touching ? "yes" : "no") << "\n";
+  os << indent << "Squeezed: " << (this->Squeezed ? "yes" : "no") << "\n";
+  os << indent << "Overloaded: " << (this->Overloaded ? "yes" : "no") << "\n";
   os << indent << "TouchedSurface: " << this->TouchedSurface << "\n";
   os << indent << "TouchedCell: " << this->TouchedCell << "\n";
   os << indent << "GrippedSurface: " << this->GetGrippedSurface() << "\n";

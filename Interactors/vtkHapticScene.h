@@ -60,8 +60,8 @@ public:
    * Invoked on the GUI thread, from Update(), Step(), Engage() and Release(), when the scene has
    * taken in everything: the getters tell the state after the last tick, the call data what was at
    * the event's own tick. In the order of the ticks; within one tick buttons, then contact, then
-   * overload. What happened between two updates is not lost, but for slides, of which each update
-   * tells one at most, last. Probes are made only for events that somebody observes.
+   * overload or squeeze. What happened between two updates is not lost, but for slides, of which
+   * each update tells one at most, last. Probes are made only for events that somebody observes.
    *
    * Python: decorate the observer with vtkmodules.util.misc.calldata_type, VTK_OBJECT (of
    * vtkmodules.util.vtkConstants) for a probe and VTK_INT for a number.
@@ -70,7 +70,7 @@ public:
   {
     ContactBeginEvent = vtkCommand::UserEvent + 4200, ///< vtkHapticProbe: a surface holds the hand
     ContactEndEvent,    ///< vtkHapticProbe: none does any more; it tells the hand's free place
-    SurfaceErrorEvent,  ///< no data; a surface could not be taken in: see GetErrorMessage()
+    SurfaceErrorEvent,  ///< no data; a surface was refused, or too fast: see GetErrorMessage()
     FaultEvent,         ///< no data; the servo stopped by itself: see GetErrorMessage()
     ContactSlideEvent,  ///< vtkHapticProbe: the god-object has moved along a surface
     ButtonPressEvent,   ///< int*: the device's button, from 0
@@ -80,7 +80,8 @@ public:
     LandmarkEvent,      ///< int*: how many landmarks there are, after one came by a button
     BuildEvent,         ///< no data; a background build began, got on or ended: GetBuildProgress()
     GripEvent,          ///< int*: the id of the surface that the hand carries now
-    LetGoEvent          ///< int*: the id of the surface that it does not carry any more
+    LetGoEvent,         ///< int*: the id of the surface that it does not carry any more
+    SqueezeEvent ///< vtkHapticProbe: surfaces have closed in and leave the hand no place: no force
   };
 
   ///@{
@@ -95,7 +96,7 @@ public:
    * One that is dragged or turned gets to its new place over the time between two updates, at most
    * 0.1 s, and takes the hand along or pushes it. What would have to be faster than 5 m/s in the
    * device's frame takes longer; what would take more than 0.1 s is an error, and is put there
-   * without pushing anything.
+   * without pushing anything. The same holds for geometry whose points move while its cells stay.
    *
    * Of an assembly every actor becomes a surface, with an id of its own, at the place where the
    * assembly has it; parts that come, go, move, are shown or hidden are followed. The id returned
@@ -115,8 +116,8 @@ public:
   ///@{
   /**
    * Removes a surface, or a whole assembly. False where it is not in the scene, or only a part of
-   * an assembly: hide that. Takes effect at the next Update(); what comes or goes while a surface is
-   * on its way to other points waits for that, 0.1 s at most.
+   * an assembly: hide that. Takes effect at the next Update(); what comes or goes while a surface
+   * is on its way to other points waits for that, 0.1 s at most.
    */
   bool RemoveSurface(int id);
   bool RemoveSurface(vtkActor* actor);
@@ -143,6 +144,14 @@ public:
    * empty. False where there is no such id.
    */
   bool SetSurfacePropertyArray(int id, int property, int association, const char* name);
+  ///@{
+  /**
+   * What people call a surface: its read-out and its messages say so. Default none, then they say
+   * "surface" and its id. False where there is no such id; the name of none is "".
+   */
+  bool SetSurfaceName(int id, const char* name);
+  std::string GetSurfaceName(int id);
+  ///@}
   /** Whether a surface can be felt now: shown, not gripped, its geometry good at least once. */
   bool IsSurfaceTouchable(int id);
 
@@ -253,6 +262,16 @@ public:
   vtkGetMacro(Touching, bool);         ///< false when released
   vtkGetMacro(TouchedSurface, int);    ///< id of the surface touched, else -1
   vtkGetMacro(TouchedCell, vtkIdType); ///< id of its cell as it was given, else -1
+  ///@}
+  ///@{
+  /**
+   * Why there is less force than one would expect, after the last Update() or Step(). Squeezed:
+   * surfaces that move have closed in and leave the hand no place, so there is none until they do.
+   * Overloaded: more triangles in one place than a tick may look at; the god-object is held there.
+   * False when released. The read-out says so too.
+   */
+  vtkGetMacro(Squeezed, bool);
+  vtkGetMacro(Overloaded, bool);
   ///@}
 
   /**
@@ -392,6 +411,7 @@ private:
   bool CarryGripped();
   void UpdateProbe(bool touching);
   void ShowInPicture();
+  std::string DescribeContact();
 
   vtkNew<vtkHapticServo> Servo;
   vtkSmartPointer<vtkGodObjectActor> Actor;  // made when asked for: it needs a rendering back end
@@ -410,6 +430,8 @@ private:
   double Force[3] = { 0.0, 0.0, 0.0 };
   double Penetration = 0.0;
   bool Touching = false;
+  bool Squeezed = false;
+  bool Overloaded = false;
   int TouchedSurface = -1;
   vtkIdType TouchedCell = -1;
   bool Engaged = false;

@@ -15,11 +15,6 @@
 #include <cmath>
 #include <utility>
 
-namespace
-{
-constexpr double LargestSpeed = 5.0; ///< of a surface that pushes a hand, device frame [m/s]
-}
-
 int vtkHapticScene::AddSurface(vtkActor* actor)
 {
   if (!actor)
@@ -180,6 +175,22 @@ bool vtkHapticScene::SetSurfacePropertyArray(
   return filter != nullptr;
 }
 
+bool vtkHapticScene::SetSurfaceName(int id, const char* name)
+{
+  haptics::HapticSurface* surface = this->Internal->Surfaces.Find(id);
+  if (surface)
+  {
+    surface->Name = name ? name : "";
+  }
+  return surface != nullptr;
+}
+
+std::string vtkHapticScene::GetSurfaceName(int id)
+{
+  const haptics::HapticSurface* surface = this->Internal->Surfaces.Find(id);
+  return surface ? surface->Name : "";
+}
+
 bool vtkHapticScene::IsSurfaceTouchable(int id)
 {
   for (const haptics::HapticAssembly& assembly : this->Internal->Assemblies)
@@ -255,11 +266,10 @@ bool vtkHapticScene::PullSurfaces()
   settings.Worker = this->Internal->BackgroundBuilding ? &this->Internal->Worker : nullptr;
   const int state = this->Servo->GetState();
   settings.IsLive = state == vtkHapticServo::Running || state == vtkHapticServo::Stepping;
-  settings.IsRunning = state == vtkHapticServo::Running;
   settings.IsTaken = this->Servo->GetLatestRecord().Generation == this->Internal->Published;
   settings.Now = this->Servo->GetTime();
   settings.Interval = settings.Now - std::exchange(this->Internal->LastPull, settings.Now);
-  settings.LargestSpeed = LargestSpeed * std::cbrt(this->Workspace->Determinant());
+  settings.Scale = std::cbrt(this->Workspace->Determinant());
   std::vector<std::string> errors;
   haptics::SurfaceSet& surfaces = this->Internal->Surfaces;
   for (haptics::HapticAssembly& assembly : this->Internal->Assemblies)

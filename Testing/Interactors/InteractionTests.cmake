@@ -16,6 +16,7 @@ haptics_add_gtest(TestHapticScene
   TestSceneProperties.cxx
   TestSceneSides.cxx
   TestSceneEvents.cxx
+  TestSurfaceSwaps.cxx
   LIBRARIES Haptics::Devices Haptics::Filters Haptics::Interactors VTK::FiltersCore
             VTK::FiltersSources VTK::RenderingOpenGL2)
 haptics_add_gtest(TestInteractorStyleHaptic

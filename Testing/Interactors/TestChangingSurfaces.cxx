@@ -1,6 +1,7 @@
 #include "SceneTestTools.h"
 #include "TickRecord.h"
 
+#include "vtkActor.h"
 #include "vtkCellArray.h"
 #include "vtkContourFilter.h"
 #include "vtkGodObjectFilter.h"
@@ -10,6 +11,7 @@
 #include "vtkPlaneSource.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
+#include "vtkPolyDataMapper.h"
 #include "vtkTrivialProducer.h"
 
 #include <gtest/gtest.h>
@@ -43,6 +45,20 @@ vtkSmartPointer<vtkPolyData> NextStep(vtkPolyData* before, double height)
     double p[3];
     next->GetPoint(i, p);
     next->GetPoints()->SetPoint(i, p[0], p[1], height * std::cos(15.0 * p[0]));
+  }
+  return next;
+}
+
+/// The same, level at a height.
+vtkSmartPointer<vtkPolyData> Lifted(vtkPolyData* before, double height)
+{
+  auto next = vtkSmartPointer<vtkPolyData>::New();
+  next->DeepCopy(before);
+  for (vtkIdType i = 0; i < next->GetNumberOfPoints(); ++i)
+  {
+    double p[3];
+    next->GetPoint(i, p);
+    next->GetPoints()->SetPoint(i, p[0], p[1], height);
   }
   return next;
 }
@@ -114,6 +130,55 @@ TEST(ChangingSurfaces, TheSameCellsDeformWithoutBuildingAndWithoutAStep)
   EXPECT_NEAR(hand.Scene->GetProbe()->GetPosition()[2], hand.GodObjectHeight(), 1e-6);
 }
 
+// A view that draws 60 times a second, as regularly as views do.
+TEST(ChangingSurfaces, SixtyShapesASecondAreFollowedWithoutLeavingAnyOut)
+{
+  Membrane hand;
+  vtkHapticServo* servo = hand.Scene->GetServo();
+  hand.Scene->Step(17);
+  const int ticks[] = { 17, 16, 17, 19, 14, 17, 13, 20, 17, 16 };
+  std::uint64_t before = servo->GetLatestRecord().Generation;
+  for (int step = 1; step <= 120; ++step)
+  {
+    hand.Producer->SetOutput(NextStep(hand.Flat, 0.001 * std::sin(0.1 * step)));
+    hand.Scene->Update();
+    servo->Step(ticks[step % 10]);
+    const std::uint64_t now = servo->GetLatestRecord().Generation;
+    EXPECT_EQ(now, before + 1) << "step " << step;
+    before = now;
+  }
+  EXPECT_EQ(hand.Builds(), 1);
+}
+
+// One after another without a tick between: there is nothing to wait for.
+TEST(ChangingSurfaces, OfSeveralInOneMomentTheLastIsTouched)
+{
+  Membrane hand;
+  hand.Scene->Step(33);
+  for (const double height : { 0.002, 0.003, 0.004 })
+  {
+    hand.Producer->SetOutput(Lifted(hand.Flat, height));
+    hand.Scene->Update();
+  }
+  hand.Scene->Step(100);
+  EXPECT_NEAR(hand.GodObjectHeight(), 0.004, Clearance);
+}
+
+// Two, with a tick between: the second waits for the first, within one call of Step().
+TEST(ChangingSurfaces, OneThatComesTooSoonWaitsAndThenTakesPart)
+{
+  Membrane hand;
+  hand.Scene->Step(33);
+  for (const double height : { 0.001, 0.002, 0.003 })
+  {
+    hand.Producer->SetOutput(Lifted(hand.Flat, height));
+    hand.Scene->Step(1);
+  }
+  hand.Scene->Step(100);
+  EXPECT_NEAR(hand.GodObjectHeight(), 0.003, Clearance);
+  EXPECT_EQ(hand.Builds(), 1) << "each has deformed";
+}
+
 TEST(ChangingSurfaces, OtherCellsAreAnotherSnapshot)
 {
   Membrane hand;
@@ -174,6 +239,83 @@ TEST(ChangingSurfaces, ABadTimeStepIsToldOnceAndTheSeriesGoesOn)
   hand.Scene->Step(33);
   EXPECT_EQ(errors.Count, 2) << "a time step that never came";
   EXPECT_TRUE(hand.Scene->GetTouching());
+}
+
+// 0.2 m at 5 m/s take 40 ms, or 50 with the haste in reserve, and not the 33 ms from update to
+// update.
+TEST(ChangingSurfaces, PointsAreNoFasterThanAHandCanFollow)
+{
+  Membrane hand;
+  hand.Scene->Step(33);
+  EventCounter errors(hand.Scene, vtkCommand::ErrorEvent);
+  hand.Producer->SetOutput(Lifted(hand.Flat, 0.2));
+  hand.Scene->Step(1);
+  double before = hand.GodObjectHeight();
+  double fastest = 0.0;
+  for (int tick = 0; tick < 60; ++tick)
+  {
+    hand.Scene->GetServo()->Step(1);
+    double at[3];
+    hand.Scene->GetServo()->GetGodObject(at);
+    fastest = std::max(fastest, at[2] - before);
+    before = at[2];
+  }
+  EXPECT_LE(fastest, 0.005) << "m a tick";
+  EXPECT_GT(fastest, 0.0035);
+  EXPECT_NEAR(before, 0.2, Clearance) << "it has pushed the hand all the way";
+  EXPECT_EQ(errors.Count, 0);
+}
+
+TEST(ChangingSurfaces, PointsThatWouldBeFasterAreThereAtOnceWithAMessageAndNoForce)
+{
+  Membrane hand;
+  hand.Scene->Step(33);
+  EventCounter errors(hand.Scene, vtkCommand::ErrorEvent);
+  double height = 0.0;
+  for (int step = 0; step < 3; ++step)
+  {
+    height += 2.0;
+    hand.Producer->SetOutput(Lifted(hand.Flat, height));
+    hand.Scene->Step(33);
+    EXPECT_FALSE(hand.Scene->GetTouching());
+    EXPECT_EQ(vtkMath::Norm(hand.Scene->GetForce()), 0.0);
+  }
+  EXPECT_EQ(errors.Count, 1) << "once, while it goes on";
+  const std::string message = hand.Scene->GetErrorMessage();
+  EXPECT_EQ(message.rfind("Surface 0: A point of it was moved by 2 m in the hand", 0), 0U)
+    << message;
+  EXPECT_EQ(hand.Builds(), 1) << "engines are refitted";
+  hand.Device->SetPosition(0.3, 0.0, 0.0); // around it
+  hand.Scene->Step(1);
+  hand.Device->SetPosition(0.3, 0.0, height + 0.05);
+  hand.Scene->Step(1);
+  hand.MoveTo(height + 0.05);
+  hand.MoveTo(height - 0.05);
+  EXPECT_TRUE(hand.Scene->GetTouching()) << "it is where it was put";
+  EXPECT_NEAR(hand.GodObjectHeight(), height, Clearance);
+  hand.Producer->SetOutput(Lifted(hand.Flat, height + 0.001));
+  hand.Scene->Step(100);
+  EXPECT_TRUE(hand.Scene->GetTouching()) << "and deforms on from there";
+}
+
+TEST(ChangingSurfaces, OneThatDeformsWhileItIsHiddenPushesNothingWhenItComesBack)
+{
+  LedHand hand;
+  vtkSmartPointer<vtkPolyData> flat = MakeMembrane();
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(flat);
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  hand.Scene->AddSurface(actor);
+  hand.MoveTo(0.01);
+  actor->VisibilityOff();
+  hand.Scene->Step(33);
+  mapper->SetInputData(NextStep(flat, 0.02)); // past the hand
+  hand.Scene->Step(33);
+  actor->VisibilityOn();
+  hand.Scene->Step(100);
+  EXPECT_FALSE(hand.Scene->GetTouching());
+  EXPECT_NEAR(hand.GodObjectHeight(), 0.01, 1e-12);
 }
 
 class ContourSeries : public ::testing::TestWithParam<double>

@@ -1,8 +1,11 @@
 #include "StyleTestTools.h"
 
+#include "vtkActor.h"
 #include "vtkCallbackCommand.h"
 #include "vtkCamera.h"
+#include "vtkHapticOverlay.h"
 #include "vtkMatrix4x4.h"
+#include "vtkPolyDataMapper.h"
 
 #include <gtest/gtest.h>
 
@@ -178,4 +181,27 @@ TEST(InteractorStyleHaptic, TwoStylesOnOneDeviceAreRefusedWithTheReason)
   first.Press('h');
   second.Press('h');
   EXPECT_TRUE(second.Hand.Scene->IsEngaged()) << "once it is free";
+}
+
+TEST(HapticOverlay, ReadsOutWhichSurfaceIsTouchedAndWhyThereIsNoForce)
+{
+  LedHand hand;
+  vtkHapticOverlay* overlay = hand.Scene->GetOverlay();
+  const int table = hand.Scene->AddSurface(MakeTable(0.0));
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(MakeTable(0.0));
+  vtkNew<vtkActor> lid;
+  lid->SetMapper(mapper);
+  lid->SetPosition(0.0, 0.0, 0.02);
+  hand.Scene->AddSurface(lid);
+  hand.MoveTo(0.01);
+  EXPECT_EQ(overlay->GetReadout(), "");
+  hand.MoveTo(-0.001);
+  EXPECT_EQ(overlay->GetReadout().rfind("surface 0   cell 0", 0), 0U) << overlay->GetReadout();
+  hand.Scene->SetSurfaceName(table, "table");
+  hand.MoveTo(-0.0011);
+  EXPECT_EQ(overlay->GetReadout().rfind("table   cell 0", 0), 0U) << overlay->GetReadout();
+  lid->SetPosition(0.0, 0.0, -0.003); // through the table
+  hand.Scene->Step(100);
+  EXPECT_EQ(overlay->GetReadout(), "surfaces leave no room here: no force");
 }

@@ -39,6 +39,7 @@ public:
     {
       scene->AddObserver(event, this->Command);
     }
+    scene->AddObserver(vtkHapticScene::SqueezeEvent, this->Command);
   }
   ~Diary() { this->Scene->RemoveObserver(this->Command); }
 
@@ -57,6 +58,10 @@ private:
         this->Events += event == vtkHapticScene::ContactBeginEvent ? " begin"
           : event == vtkHapticScene::ContactEndEvent               ? " end"
                                                                    : " slide";
+        break;
+      case vtkHapticScene::SqueezeEvent:
+        this->Probes.push_back(static_cast<vtkHapticProbe*>(data));
+        this->Events += " squeeze";
         break;
       case vtkHapticScene::ButtonPressEvent:
         this->Events += " press" + std::to_string(*static_cast<int*>(data));
@@ -388,4 +393,61 @@ TEST(HapticSceneHand, ScalesAboutTheHandAndRefusesAScaleOfZero)
   EXPECT_FALSE(hand.Scene->ScaleWorkspace(0.0));
   EXPECT_FALSE(hand.Scene->ScaleWorkspace(std::nan("")));
   EXPECT_EQ(errors.Count, 2);
+}
+
+//  =========  |     a lid comes down on the hand, through the table, and goes up again
+//      o      v
+//  =========
+TEST(SceneEvents, TellThatSurfacesLeaveTheHandNoPlace)
+{
+  LedHand hand;
+  hand.Scene->AddSurface(MakeTable(0.0));
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(MakeTable(0.0));
+  vtkNew<vtkActor> lid;
+  lid->SetMapper(mapper);
+  lid->SetPosition(0.0, 0.0, 0.02);
+  hand.Scene->AddSurface(lid);
+  hand.MoveTo(0.01);
+  hand.MoveTo(-0.001);
+  ASSERT_GT(hand.Scene->GetForce()[2], 0.0);
+  EXPECT_FALSE(hand.Scene->GetSqueezed());
+  Diary diary(hand.Scene);
+  lid->SetPosition(0.0, 0.0, -0.003);
+  hand.Scene->Step(100);
+  EXPECT_EQ(diary.Events, " end squeeze");
+  EXPECT_TRUE(hand.Scene->GetSqueezed());
+  EXPECT_EQ(hand.Scene->GetForce()[2], 0.0);
+  ASSERT_EQ(diary.Probes.size(), 2U);
+  EXPECT_FALSE(diary.Probes.back()->GetTouching());
+  EXPECT_NEAR(diary.Probes.back()->GetHapticInterfacePoint()[2], -0.001, 1e-12);
+  diary.Events.clear();
+  lid->SetPosition(0.0, 0.0, 0.02);
+  hand.Scene->Step(100);
+  EXPECT_EQ(diary.Events, " begin");
+  EXPECT_FALSE(hand.Scene->GetSqueezed());
+  EXPECT_GT(hand.Scene->GetForce()[2], 0.0) << "on the side of the table where it was";
+}
+
+TEST(SceneEvents, ProbesAndMessagesCallASurfaceByItsName)
+{
+  LedHand hand;
+  vtkSmartPointer<vtkPolyData> table = MakeTable(0.0);
+  const int id = hand.Scene->AddSurface(table);
+  hand.MoveTo(0.01);
+  hand.MoveTo(-0.001);
+  EXPECT_EQ(hand.Scene->GetProbe()->GetSurfaceName(), "surface 0");
+  ASSERT_TRUE(hand.Scene->SetSurfaceName(id, "table"));
+  hand.MoveTo(-0.002);
+  EXPECT_EQ(hand.Scene->GetSurfaceName(id), "table");
+  EXPECT_EQ(hand.Scene->GetProbe()->GetSurfaceName(), "table");
+  EXPECT_EQ(hand.Scene->GetProbe()->GetText().rfind("table   cell 0", 0), 0U)
+    << hand.Scene->GetProbe()->GetText();
+  EventCounter errors(hand.Scene, vtkCommand::ErrorEvent);
+  table->Initialize();
+  hand.Scene->Step(1);
+  EXPECT_EQ(std::string(hand.Scene->GetErrorMessage()).rfind("Surface 0 (table): ", 0), 0U)
+    << hand.Scene->GetErrorMessage();
+  EXPECT_FALSE(hand.Scene->SetSurfaceName(7, "none"));
+  EXPECT_EQ(hand.Scene->GetSurfaceName(7), "");
 }
