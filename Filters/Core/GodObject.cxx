@@ -25,6 +25,7 @@ GodObject::Implementation::Implementation(std::vector<TouchedSurface> surfaces)
   this->HasProperties = std::any_of(this->Surfaces.begin(), this->Surfaces.end(),
     [](const TouchedSurface& touched) { return touched.Properties != nullptr; });
   this->Sets.reserve(this->Surfaces.size());
+  this->Scratch.resize(this->Surfaces.empty() ? 0 : WorkingSet::LargestNumberOfTriangles);
   for (const TouchedSurface& touched : this->Surfaces)
   {
     const auto index = static_cast<std::int32_t>(this->Sets.size());

@@ -99,6 +99,7 @@ private:
   std::vector<Mover> Movers;
   std::vector<std::int32_t> Deforming; ///< surfaces
   WorkBudget Budget;
+  std::vector<std::int32_t> Scratch; ///< for questions to another god-object's surfaces
   int PassesLeft = 0; ///< of this update
   Friction Cone;
   /// The surfaces that count: all, but for a god-object that is split.

@@ -65,6 +65,9 @@ bool GodObject::Implementation::Continue(const Implementation& previous)
   this->TakeFromHand(previous);
   this->Place(previous.Position + (previous.Origin - this->Origin));
   this->Budget.Triangles = LargestNumberOfTriangles;
+  WorkBudget looks = this->Budget; // at sides; what is left of the other is for the motion
+  const TriangleList scratch{ this->Scratch.data(),
+    static_cast<std::int32_t>(this->Scratch.size()) };
   std::size_t same = 0;
   bool isElsewhere = previous.IsSplit;
   Vector wish = this->Position;
@@ -94,7 +97,7 @@ bool GodObject::Implementation::Continue(const Implementation& previous)
         const ActivePlane& plane = previous.Active.Support(i);
         held = plane.Facet.Surface == surface ? &plane : held;
       }
-      if (!set.Succeed(*before, held) && !this->IsGripped(index))
+      if (!set.Succeed(*before, held, scratch, looks) && !this->IsGripped(index))
       {
         wish = set.Frame().PointToScene(set.LocalPosition());
       }
@@ -261,7 +264,7 @@ void GodObject::Implementation::StepApart()
     }
     if (part < SmallestPart)
     {
-      set.SkipTick();
+      set.SkipTick(this->Budget);
     }
   }
   this->First = 0;

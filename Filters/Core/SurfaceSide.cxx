@@ -17,12 +17,17 @@ constexpr std::array<std::array<double, 3>, 4> Directions = { { { 0.57, 0.61, 0.
   { -0.43, 0.31, 0.85 }, { 0.21, -0.93, 0.29 }, { -0.71, -0.37, -0.60 } } };
 /// Points as near as this beside the nearest one are as near.
 constexpr double Tie = 1e-9;
+/// Balls that are looked into for the nearest place: 14 that grow to the surface's size, and some
+/// between the last two where the larger has too many triangles.
+constexpr int LargestNumberOfBalls = 32;
 }
 
-SurfaceSide::SurfaceSide(const TriangleSurface& surface, double fraction, TriangleList scratch)
+SurfaceSide::SurfaceSide(
+  const TriangleSurface& surface, double fraction, TriangleList scratch, WorkBudget& budget)
   : Surface(surface)
   , Fraction(fraction)
   , Scratch(scratch)
+  , Budget(budget)
 {
 }
 
@@ -68,7 +73,8 @@ bool SurfaceSide::CountEnclosing(const Vector& x, Enclosed& enclosed)
     found.Count = 0;
     found.Overflow = false;
     this->Surface.Engine().FindOnSegment(ToVec3(x), ToVec3(to), found);
-    if (found.Overflow)
+    this->Budget.Triangles -= found.Count;
+    if (found.Overflow || this->Budget.Triangles <= 0)
     {
       return false;
     }
@@ -100,64 +106,75 @@ bool SurfaceSide::FindNearest(const Vector& x, const Encloser* kind, SurfacePlac
   {
     return false;
   }
-  for (double radius = 0x1p-12 * surfaceRadius; radius < 4.0 * surfaceRadius; radius *= 2.0)
+  double small = 0.0;      // a ball with nothing to be found
+  double large = HUGE_VAL; // one with too much
+  double radius = 0x1p-12 * surfaceRadius;
+  for (int ball = 0; ball < LargestNumberOfBalls && small < 4.0 * surfaceRadius; ++ball)
   {
     TriangleList found = this->Scratch;
     found.Count = 0;
     found.Overflow = false;
     this->Surface.Engine().FindInBall(ToVec3(x), radius, found);
-    if (found.Overflow)
+    this->Budget.Triangles -= found.Count;
+    if (this->Budget.Triangles <= 0)
     {
       return false;
     }
-    double best = HUGE_VAL;
-    double facing = -1.0;
-    // The first round finds the distance, the second the facet that faces x most of those there.
-    for (int round = 0; round < 2; ++round)
-    {
-      for (std::int32_t k = 0; k < found.Count; ++k)
-      {
-        const std::int32_t id = found.Indices[k];
-        if (kind && this->Surface.EncloserOf(id) != *kind)
-        {
-          continue;
-        }
-        const auto [a, b, c] = this->CornersOf(id);
-        const Facet facet(a, b, c);
-        if (!facet.HasArea())
-        {
-          continue;
-        }
-        const Vector way = NearestToOrigin(a - x, b - x, c - x);
-        const double distance = glm::length(way);
-        if (round == 0)
-        {
-          best = std::min(best, distance);
-          continue;
-        }
-        const double cosine =
-          distance > 0.0 ? std::abs(glm::dot(facet.Normal, way)) / distance : 1.0;
-        if (distance <= best * (1.0 + Tie) && cosine > facing)
-        {
-          facing = cosine;
-          nearest = { x + way, facet.Normal, id, false };
-          for (int k3 = 0; k3 < 3; ++k3)
-          {
-            const Vector& from = facet.Corner[k3];
-            const Vector edge = facet.Corner[(k3 + 1) % 3] - from;
-            const double off = glm::length(glm::cross(edge, nearest.Point - from));
-            nearest.IsOnRim = nearest.IsOnRim ||
-              (this->Surface.AdjacentTriangles()[id][k3] == BoundaryEdge &&
-                off <= Tie * SquaredLength(edge));
-          }
-        }
-      }
-    }
-    if (best <= radius)
+    if (!found.Overflow && this->ChooseNearest(x, kind, found, nearest) <= radius)
     {
       return true;
     }
+    (found.Overflow ? large : small) = radius;
+    radius = large < HUGE_VAL ? 0.5 * (small + large) : 2.0 * radius;
   }
   return false;
+}
+
+double SurfaceSide::ChooseNearest(
+  const Vector& x, const Encloser* kind, const TriangleList& found, SurfacePlace& nearest) const
+{
+  double best = HUGE_VAL;
+  double facing = -1.0;
+  // The first round finds the distance, the second the facet that faces x most of those there.
+  for (int round = 0; round < 2; ++round)
+  {
+    for (std::int32_t k = 0; k < found.Count; ++k)
+    {
+      const std::int32_t id = found.Indices[k];
+      if (kind && this->Surface.EncloserOf(id) != *kind)
+      {
+        continue;
+      }
+      const auto [a, b, c] = this->CornersOf(id);
+      const Facet facet(a, b, c);
+      if (!facet.HasArea())
+      {
+        continue;
+      }
+      const Vector way = NearestToOrigin(a - x, b - x, c - x);
+      const double distance = glm::length(way);
+      if (round == 0)
+      {
+        best = std::min(best, distance);
+        continue;
+      }
+      const double cosine = distance > 0.0 ? std::abs(glm::dot(facet.Normal, way)) / distance : 1.0;
+      if (distance <= best * (1.0 + Tie) && cosine > facing)
+      {
+        facing = cosine;
+        nearest = { x + way, facet.Normal, id, false };
+        for (int k3 = 0; k3 < 3; ++k3)
+        {
+          const Vector& from = facet.Corner[k3];
+          const Vector edge = facet.Corner[(k3 + 1) % 3] - from;
+          const double off = glm::length(glm::cross(edge, nearest.Point - from));
+          nearest.IsOnRim = nearest.IsOnRim ||
+            (this->Surface.AdjacentTriangles()[id][k3] == BoundaryEdge &&
+              off <= Tie * SquaredLength(edge));
+        }
+      }
+    }
+  }
+  return best;
 }
 }

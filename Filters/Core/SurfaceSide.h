@@ -8,6 +8,12 @@
 
 namespace haptics
 {
+/// How many triangles may still be looked up: what bounds the work of a tick.
+struct WorkBudget
+{
+  std::int64_t Triangles = 0;
+};
+
 /// How often a point is enclosed: 1 inside a solid, 0 outside.
 struct Enclosed
 {
@@ -28,19 +34,20 @@ struct SurfacePlace
 ///
 /// What is asked when a surface has changed all at once, so that no motion tells. Local frame of
 /// the surface, at a fraction of its deformation's time. Servo thread: no allocation; bounded by
-/// the list.
+/// the budget.
 class SurfaceSide
 {
 public:
-  /// `scratch`: a list to work with, whose capacity bounds the work.
-  SurfaceSide(const TriangleSurface& surface, double fraction, TriangleList scratch);
+  /// `scratch`: a list to work with; what finds more than fit at once is not answered.
+  SurfaceSide(
+    const TriangleSurface& surface, double fraction, TriangleList scratch, WorkBudget& budget);
 
   /// How often the triangles that enclose space do so with the point. Exact, by the crossings of a
   /// ray. False where it cannot be told: too many triangles in the way.
   bool CountEnclosing(const Vector& x, Enclosed& enclosed);
 
   /// The nearest place of the triangles that enclose in one way, or of all where `kind` is null.
-  /// False where there is none within reach.
+  /// False where there is none within reach, or too many are as near.
   bool FindNearest(const Vector& x, const Encloser* kind, SurfacePlace& nearest);
 
 private:
@@ -51,10 +58,14 @@ private:
   Corners CornersOf(std::int32_t triangle) const;
   /// 0: not crossed, +1 or -1: crossed from back or front; 2: along an edge or a corner.
   int Crossing(const Vector& from, const Vector& to, std::int32_t triangle) const;
+  /// The nearest place of what was found, and how far it is: HUGE_VAL where there is none.
+  double ChooseNearest(
+    const Vector& x, const Encloser* kind, const TriangleList& found, SurfacePlace& nearest) const;
 
   const TriangleSurface& Surface;
   double Fraction;
   TriangleList Scratch;
+  WorkBudget& Budget;
 };
 }
 

@@ -7,13 +7,6 @@
 
 namespace haptics
 {
-namespace
-{
-/// Most triangles that one gathering holds: more meet in no point of any surface seen, and fewer
-/// would leave the tip of a finely cut cone out of touch.
-constexpr std::int32_t LargestSet = 1 << 15;
-}
-
 WorkingSet::WorkingSet(
   std::shared_ptr<const TriangleSurface> surface, std::int32_t index, const SurfaceFrame& frame)
   : Touched(std::move(surface))
@@ -24,7 +17,8 @@ WorkingSet::WorkingSet(
   , RadiusToTry(this->Touched->Radius())
 {
   this->KeepClearOfRounding();
-  const std::size_t capacity = std::min<std::size_t>(LargestSet, this->Touched->Triangles().size());
+  const std::size_t capacity =
+    std::min<std::size_t>(LargestNumberOfTriangles, this->Touched->Triangles().size());
   this->Found.resize(capacity);
   this->Triangles.resize(capacity);
   this->Flipped.resize(capacity);

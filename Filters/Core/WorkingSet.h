@@ -13,12 +13,6 @@
 
 namespace haptics
 {
-/// How many triangles an update may still look up: what bounds the work of a tick.
-struct WorkBudget
-{
-  std::int64_t Triangles = 0;
-};
-
 /// The first facet that a motion meets.
 struct FacetHit
 {
@@ -49,6 +43,10 @@ struct FacetHit
 class WorkingSet
 {
 public:
+  /// Most that one gathering holds: more meet in no point of any surface seen, and fewer would
+  /// leave the tip of a finely cut cone out of touch.
+  static constexpr std::int32_t LargestNumberOfTriangles = 1 << 15;
+
   /// `index` names the surface in FacetIds.
   WorkingSet(
     std::shared_ptr<const TriangleSurface> surface, std::int32_t index, const SurfaceFrame& frame);
@@ -68,7 +66,9 @@ public:
   /// Stands where another set had its god-object, of a surface that has changed all at once. False
   /// where the changed surface has gone over it: then on the nearest place of the side that it was
   /// on. `held`: a plane of the surface before that held it, or null.
-  bool Succeed(const WorkingSet& previous, const ActivePlane* held);
+  /// `scratch`: for what the surface before is asked.
+  bool Succeed(
+    const WorkingSet& previous, const ActivePlane* held, TriangleList scratch, WorkBudget& budget);
 
   /// Finds the first facet met on the way to `goal`, short of which the god-object has to stop.
   /// Active facets count only where they would be crossed. False when the budget ends first, or one
@@ -94,7 +94,7 @@ public:
   void BeginRest();
   /// Goes to the end of the tick, whatever it passes; a solid that has gone over the god-object has
   /// it on the nearest place outside.
-  void SkipTick();
+  void SkipTick(WorkBudget& budget);
   ///@}
 
   /// The plane as its facet will be after the next motion.
@@ -149,9 +149,10 @@ private:
     return { ToVector(points[corners[0]]), ToVector(points[corners[1]]),
       ToVector(points[corners[2]]) };
   }
-  bool PlaceBack(const Enclosed& before, const Enclosed& now);
-  bool PlaceOff(const Vector& nearest, const Vector& outwards, const Enclosed* enclosed);
-  SurfaceSide SideOf(const TriangleSurface& surface, double fraction);
+  bool PlaceBack(const Enclosed& before, const Enclosed& now, WorkBudget& budget);
+  bool PlaceOff(
+    const Vector& nearest, const Vector& outwards, const Enclosed* enclosed, WorkBudget& budget);
+  SurfaceSide Sides(WorkBudget& budget);
   bool IsSweeping() const { return this->Next != this->Now; }
   bool GatherSwept(const Vector& to, WorkBudget& budget);
   bool FindSwept(const Vector& to, WorkBudget& budget, FacetHit& hit);

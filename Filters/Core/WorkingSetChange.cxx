@@ -22,17 +22,18 @@ constexpr double LeastCosine = 0.25;
 constexpr int LargestNumberOfHeights = 8;
 }
 
-SurfaceSide WorkingSet::SideOf(const TriangleSurface& surface, double fraction)
+SurfaceSide WorkingSet::Sides(WorkBudget& budget)
 {
-  return SurfaceSide(surface, fraction,
-    TriangleList{ this->Found.data(), static_cast<std::int32_t>(this->Found.size()) });
+  return SurfaceSide(*this->Touched, this->Now,
+    TriangleList{ this->Found.data(), static_cast<std::int32_t>(this->Found.size()) }, budget);
 }
 
-bool WorkingSet::Succeed(const WorkingSet& previous, const ActivePlane* held)
+bool WorkingSet::Succeed(
+  const WorkingSet& previous, const ActivePlane* held, TriangleList scratch, WorkBudget& budget)
 {
   this->Covered = Region::Nothing;
-  SurfaceSide before = this->SideOf(*previous.Touched, previous.Now);
-  SurfaceSide now = this->SideOf(*this->Touched, this->Now);
+  SurfaceSide before(*previous.Touched, previous.Now, scratch, budget);
+  SurfaceSide now = this->Sides(budget);
   const Vector there = this->Position;
   Enclosed enclosedBefore;
   Enclosed enclosed;
@@ -41,7 +42,7 @@ bool WorkingSet::Succeed(const WorkingSet& previous, const ActivePlane* held)
     before.CountEnclosing(previous.Position, enclosedBefore) && now.CountEnclosing(there, enclosed);
   if (isCounted && !IsSameSide(enclosed, enclosedBefore))
   {
-    return !this->PlaceBack(enclosedBefore, enclosed);
+    return !this->PlaceBack(enclosedBefore, enclosed, budget);
   }
   const bool isTold =
     isCounted && held && previous.Touched->EncloserOf(held->Facet.Triangle) != Encloser::None;
@@ -61,26 +62,27 @@ bool WorkingSet::Succeed(const WorkingSet& previous, const ActivePlane* held)
   {
     return true;
   }
-  return !this->PlaceOff(nearest.Point, outwards, nullptr);
+  return !this->PlaceOff(nearest.Point, outwards, nullptr, budget);
 }
 
 /// Puts the god-object off the nearest point of what encloses it otherwise than before, on the side
 /// that it had. False, with nothing changed, where that does not come about.
-bool WorkingSet::PlaceBack(const Enclosed& before, const Enclosed& now)
+bool WorkingSet::PlaceBack(const Enclosed& before, const Enclosed& now, WorkBudget& budget)
 {
   const Encloser kind = now.Front > before.Front ? Encloser::Front : Encloser::Both;
   SurfacePlace nearest;
-  return this->SideOf(*this->Touched, this->Now).FindNearest(this->Position, &kind, nearest) &&
-    (this->PlaceOff(nearest.Point, nearest.Normal, &before) ||
-      this->PlaceOff(nearest.Point, -nearest.Normal, &before));
+  return this->Sides(budget).FindNearest(this->Position, &kind, nearest) &&
+    (this->PlaceOff(nearest.Point, nearest.Normal, &before, budget) ||
+      this->PlaceOff(nearest.Point, -nearest.Normal, &before, budget));
 }
 
 /// Puts the god-object off the nearest point of the surface; where `enclosed` is given, on the side
 /// that it had when it was enclosed so often. False, with nothing changed, where that does not come
 /// about.
-bool WorkingSet::PlaceOff(const Vector& nearest, const Vector& outwards, const Enclosed* enclosed)
+bool WorkingSet::PlaceOff(
+  const Vector& nearest, const Vector& outwards, const Enclosed* enclosed, WorkBudget& budget)
 {
-  SurfaceSide side = this->SideOf(*this->Touched, this->Now);
+  SurfaceSide side = this->Sides(budget);
   double height = this->MinimumClearance;
   for (int i = 0; i < LargestNumberOfHeights; ++i)
   {
@@ -96,20 +98,20 @@ bool WorkingSet::PlaceOff(const Vector& nearest, const Vector& outwards, const E
   return false;
 }
 
-void WorkingSet::SkipTick()
+void WorkingSet::SkipTick(WorkBudget& budget)
 {
   Enclosed before;
-  const bool isCounted = HasInside(*this->Touched) &&
-    this->SideOf(*this->Touched, this->Now).CountEnclosing(this->Position, before);
+  const bool isCounted =
+    HasInside(*this->Touched) && this->Sides(budget).CountEnclosing(this->Position, before);
   this->Now = this->TickEnd;
   this->Next = this->Now;
   this->Covered = Region::Nothing;
   this->EmptyRadius = 0.0;
   Enclosed after;
-  if (isCounted && this->SideOf(*this->Touched, this->Now).CountEnclosing(this->Position, after) &&
+  if (isCounted && this->Sides(budget).CountEnclosing(this->Position, after) &&
     !IsSameSide(after, before))
   {
-    this->PlaceBack(before, after);
+    this->PlaceBack(before, after, budget);
   }
 }
 }

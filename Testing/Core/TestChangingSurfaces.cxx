@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace haptics;
@@ -45,6 +46,30 @@ TriangleMesh Contour(int step, double radius)
   }
   return mesh;
 }
+
+/// Where a god-object that rests at `place` in front of `before` is when that is now `after`.
+Vec3 PlaceAfter(const SurfacePointer& before, const Vec3& place, SurfacePointer after)
+{
+  GodObject god(Listed(before));
+  god.Update(place);
+  return Changed(god, std::move(after))->Update(place).Position;
+}
+}
+
+TEST(ChangingSurfaces, OneOfManyTrianglesThatGrowsFarOverTheHandHasItOutside)
+{
+  const Vec3 place = 0.039 * Unit({ 0.3, -0.5, 0.8 });
+  const auto fine = MakeSurface(Icosphere(7, 0.08)); // 60,000 triangles are within 80 mm of it
+  EXPECT_GE(Length(PlaceAfter(MakeSurface(Icosphere(3, 0.03)), place, fine)), 0.0799);
+}
+
+TEST(ChangingSurfaces, OneOfManyTrianglesThatBecomesABoxHasTheHandOutside)
+{
+  // On the far side of the first ray that is asked along, so that it passes the whole surface.
+  const Vec3 place = -0.0501 * Unit({ 0.57, 0.61, 0.55 });
+  const Vec3 now =
+    PlaceAfter(MakeSurface(Star(6, 0.05, 0.4, 5)), place, MakeSurface(Box(0.08, 0.08, 0.08, 1)));
+  EXPECT_GE(std::max({ std::abs(now[0]), std::abs(now[1]), std::abs(now[2]) }), 0.08);
 }
 
 //   x o )  ->  (x  o): each time step other triangles, growing over the god-object and shrinking
