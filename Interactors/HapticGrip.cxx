@@ -96,6 +96,11 @@ bool HapticGrip::Carry(const TickRecord& tick, vtkActor* actor, SurfaceSet& surf
 
 bool ShiftActor(vtkActor* actor, const Matrix4& world, const Vec3& by)
 {
+  const double determinant = Determinant(world);
+  if (!std::isfinite(determinant + by[0] + by[1] + by[2]) || determinant == 0.0)
+  {
+    return false;
+  }
   vtkNew<vtkMatrix4x4> above; // what turns a shift of its position into one in the world
   if (vtkMatrix4x4* const user = actor->GetUserMatrix())
   {
@@ -113,11 +118,6 @@ bool ShiftActor(vtkActor* actor, const Matrix4& world, const Vec3& by)
     vtkMatrix4x4::DeepCopy(user.data(), above);
     vtkMatrix4x4::Multiply4x4(parents.data(), user.data(), above->GetData());
   }
-  const double determinant = above->Determinant();
-  if (!std::isfinite(determinant) || determinant == 0.0)
-  {
-    return false;
-  }
   above->Invert();
   Vec3 shift{};
   for (int i = 0; i < 3; ++i)
@@ -126,10 +126,6 @@ bool ShiftActor(vtkActor* actor, const Matrix4& world, const Vec3& by)
     {
       shift[i] += above->GetElement(i, j) * by[j];
     }
-  }
-  if (!std::isfinite(Largest(shift)))
-  {
-    return false;
   }
   actor->AddPosition(shift.data());
   return true;

@@ -58,7 +58,7 @@ private:
 
 /// Shifts an actor in the world through its position, whatever is above it: its user matrix, and in
 /// an assembly the parts that it hangs on. `world`: its matrix with all of these. False, and
-/// nothing changed, where one of them is flat or not finite.
+/// nothing changed, where that is flat, or it or the shift is not finite.
 bool ShiftActor(vtkActor* actor, const Matrix4& world, const Vec3& by);
 }
 

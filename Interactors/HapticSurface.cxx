@@ -167,15 +167,14 @@ void HapticSurface::Follow(const PullSettings& settings, std::string& error)
   const Matrix4 matrix = this->CurrentMatrix();
   const bool hasMoved = !AreSame(matrix, this->LastMatrix);
   this->LastMatrix = matrix;
-  // Where it is let go of, and not where it was before, is where it is felt again.
-  const bool isCarried = std::exchange(this->Carried, this->Carried && this->Gripped);
+  const bool isCarried = std::exchange(this->Carried, false);
   if (hasMoved && this->InForce)
   {
     PullSettings moving = settings;
     moving.IsLive = settings.IsLive && !isCarried;
     this->NeedsBaking = !this->FollowMatrix(moving, error);
   }
-  if ((this->WasUnseen || isCarried) && this->Moving)
+  if (this->WasUnseen && this->Moving)
   {
     this->Moving->JumpTo(this->Placed); // what moved unseen must not push the hand now
   }

@@ -96,7 +96,7 @@ public:
   void SetGripped(bool isGripped) { this->Gripped = isGripped; }
   bool IsGripped() const { return this->Gripped; }
   ///@}
-  /// The hand has it: till it is let go of it is in its new place at once, and pushes nothing.
+  /// The hand has put it where it is: the next Pull() has it there at once, and it pushes nothing.
   void Carry() { this->Carried = true; }
   /// A point of the frame that Pose() moves, in that of the actor's geometry.
   Vec3 PointInActor(const Vec3& point) const;

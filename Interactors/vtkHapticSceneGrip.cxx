@@ -99,21 +99,12 @@ bool vtkHapticScene::CarryGripped()
   {
     return false;
   }
-  const auto pullAssemblies = [this, &surfaces]()
+  for (haptics::HapticAssembly& assembly : this->Internal->Assemblies)
   {
-    for (haptics::HapticAssembly& assembly : this->Internal->Assemblies)
-    {
-      assembly.Pull(surfaces); // the surface of a part only stands for its actor
-    }
-  };
-  pullAssemblies();
-  vtkActor* actor = this->GetSurfaceActor(grip.Surface());
-  const bool isElsewhere = actor && grip.Carry(*this->Internal->Latest, actor, surfaces);
-  if (isElsewhere)
-  {
-    pullAssemblies();
+    assembly.Pull(surfaces); // the surface of a part only stands for its actor
   }
-  return isElsewhere;
+  vtkActor* actor = this->GetSurfaceActor(grip.Surface());
+  return actor && grip.Carry(*this->Internal->Latest, actor, surfaces);
 }
 
 void vtkHapticScene::ObeyGripButton()

@@ -146,8 +146,10 @@ TEST(Grip, TheActorMovesSoWhateverItsMatrixIsMadeOf)
     bench.Scene->Update();
     EXPECT_FALSE(bench.Scene->Update()) << "rounding moves no picture";
 
-    // Let go, the hand is where it was on the part, though no ray or rounding says so: it lifts off
-    // freely, and finds the part as far away as it was before.
+    // Let go, the hand is where it was on the part, also where something else has moved it just
+    // before: it lifts off freely, and finds the part as far away as it was.
+    robot->AddPosition(0.0, 0.05, 0.02);
+    arm->AddPosition(0.03, 0.0, 0.0);
     bench.Scene->LetGo();
     bench.Scene->Step(16);
     EXPECT_LT(bench.Force(), 1e-6) << i;
@@ -352,6 +354,16 @@ TEST(Grip, SetBackWhereItCameFromItPushesNoHand)
   EXPECT_FALSE(bench.Scene->GetTouching());
   bench.Go(0.003, 0.005, 0.018);
   EXPECT_NEAR(bench.GodObject()[2], 0.02, Clearance);
+
+  // And so far that the hand, which is on it, cannot be taken along: as any actor moved so far.
+  ASSERT_TRUE(bench.Scene->Grip());
+  bench.Go(0.003, 0.005, -1.98, 2);
+  bench.Scene->LetGo();
+  EventCounter errors(bench.Scene, vtkCommand::ErrorEvent);
+  bench.Part->SetPosition(0.0, 0.0, 0.0);
+  bench.Scene->Step(1);
+  EXPECT_EQ(errors.Count, 1);
+  EXPECT_EQ(bench.Force(), 0.0);
 }
 
 // A dropped frame: the scene is updated late, or ticks are lost because it was.
