@@ -33,6 +33,7 @@ constexpr const char* KeysHelp = "drag         turn the camera (Shift: pan, Ctrl
                                  "b            trail\n"
                                  "d   z        drop a landmark, take the last one away\n"
                                  "c            clutch: let go, and take hold again\n"
+                                 "x            grip what is touched and carry it, let it go\n"
                                  "+   -   0    the hand goes farther, less far, reset\n"
                                  "o            hand occluded or seen through the surface\n"
                                  "t   g        touched triangles, colours of the force\n"
@@ -332,6 +333,17 @@ void vtkInteractorStyleHaptic::OnChar()
     case 'c':
     case 'C':
       this->Scene->SetClutched(!this->Scene->GetClutched());
+      break;
+    case 'x':
+    case 'X':
+      if (this->Scene->GetGrippedSurface() >= 0)
+      {
+        this->Scene->LetGo();
+      }
+      else
+      {
+        this->Scene->Grip();
+      }
       break;
     case '+':
     case '-':

@@ -13,6 +13,7 @@
  * - b: show or hide the trail behind the god-object
  * - d, z: drop a landmark, take the last one away
  * - c: the clutch
+ * - x: grip what is touched and carry it, let it go
  * - +, -: scale the workspace about the hand
  * - 0: undo what scaling and clutching have done to the workspace
  * - o: see the hand through the surface or not

@@ -270,6 +270,10 @@ double vtkMouseHapticDevice::DepthOfTarget(const View& view)
 bool vtkMouseHapticDevice::DepthOfSurface(const View& view, double& depth)
 {
   double hit[3];
+  if (this->Scene->GetGrippedSurface() >= 0)
+  {
+    return false; // what lies behind the part in the hand is not what the hand means
+  }
   if (!this->Scene->IntersectRay(view.From, view.Direction, hit))
   {
     return false;

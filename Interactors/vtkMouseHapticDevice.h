@@ -9,6 +9,9 @@
  * - the space bar, held: presses PressDepth into the surface under the cursor and follows the
  *   surface while the mouse moves: a stroke. Let go, the hand lifts off.
  *
+ * While the hand carries something (vtkHapticScene::Grip()) it is drawn to no surface, and goes as
+ * deep as the wheel says.
+ *
  * While a mouse button is held the mouse belongs to the camera, and the hand stays.
  *
  * What it is not: a mouse cannot push back. The force that a haptic device would give is computed

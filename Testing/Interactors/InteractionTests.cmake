@@ -33,6 +33,7 @@ haptics_add_gtest(TestInteractorStyleTimer
 # Baselines are in Testing/Data/Baseline.
 vtk_add_test_cxx(HapticsImageTests haptics_image_tests
   NO_DATA
+  TestCarry.cxx
   TestConcaveCorner.cxx
   TestConvexEdge.cxx
   TestFreeTouchingPressed.cxx

@@ -107,6 +107,46 @@ TEST(MouseHapticDevice, TheSpaceBarPressesFollowsTheSurfaceAndLiftsOff)
   EXPECT_FALSE(window.Hand.Scene->GetTouching());
 }
 
+// x with the space bar held: the hand carries the table in the plane of the view, and is not drawn
+// down to the floor behind it; with the wheel it goes there in steps.
+TEST(MouseHapticDevice, AKeyGripsTheTableAndTheMouseCarriesIt)
+{
+  MouseWindow window;
+  window.Hand.Scene->AddSurface(MakeTable(-0.05));
+  window.Send(vtkCommand::MouseMoveEvent, 50, 50);
+  window.Send(vtkCommand::KeyPressEvent, 50, 50, "space");
+  window.Tick();
+  ASSERT_TRUE(window.Hand.Scene->GetTouching());
+  double held[3];
+  window.Hand.Scene->GetGodObject(held);
+  window.Press('x');
+  for (const int x : { 50, 60, 70 })
+  {
+    window.Send(vtkCommand::MouseMoveEvent, x, 45);
+    window.Tick();
+    EXPECT_NEAR(window.Height(), -0.003, 1e-9);
+  }
+  double display[2];
+  double carried[3];
+  for (int i = 0; i < 3; ++i)
+  {
+    carried[i] = held[i] + window.Table->GetPosition()[i];
+  }
+  window.Project(carried, display);
+  EXPECT_NEAR(display[0], 70.0, 1e-6) << "what was gripped is under the cursor";
+  EXPECT_NEAR(display[1], 45.0, 1e-6);
+  window.Send(vtkCommand::MouseWheelForwardEvent, 70, 45);
+  window.Tick();
+  EXPECT_NEAR(window.Height(), -0.008, 1e-9);
+  EXPECT_NEAR(window.Table->GetPosition()[2], -0.008, Clearance);
+  window.Press('x');
+  window.Tick();
+  EXPECT_EQ(window.Hand.Scene->GetGrippedSurface(), -1);
+  window.Send(vtkCommand::MouseMoveEvent, 71, 45);
+  window.Tick();
+  EXPECT_NEAR(window.Hand.Scene->GetForce()[2], 500.0 * 0.003, 1e-3) << "space presses on";
+}
+
 TEST(MouseHapticDevice, StaysWhileTheCameraIsDragged)
 {
   MouseWindow window;

@@ -65,4 +65,29 @@ TEST(ServoAllocations, DoNotHappenInATick)
   EXPECT_EQ(Allocations, published) << "taking new surfaces";
   EXPECT_GT(channel->LastForce[2], 0.0);
 }
+
+TEST(ServoAllocations, DoNotHappenWhileTheHandGripsAndLetsGo)
+{
+  haptics::ServoCycle cycle(1024);
+  const auto channel = MakePressingHand(0.002);
+  const auto motion = std::make_shared<haptics::SurfaceMotion>(haptics::RigidPose());
+  haptics::TouchedSurface part(MakePlane(), motion);
+  cycle.Begin(channel, haptics::ServoState::Stepping);
+  for (int i = 0; i < 41; ++i)
+  {
+    part.IsGripped = i % 2 == 1;
+    cycle.GetExchange().Publish(std::make_unique<haptics::GodObject>(std::vector{ part }));
+    if (part.IsGripped)
+    {
+      motion->JumpTo({ { 0.0, 0.0, -0.00004 * i }, { 1.0, 0.0, 0.0, 0.0 } });
+    }
+    const long published = Allocations;
+    for (int tick = 0; tick < 10; ++tick)
+    {
+      ASSERT_TRUE(cycle.Tick(0.001 * (10 * i + tick)));
+    }
+    ASSERT_EQ(Allocations, published) << i;
+  }
+  EXPECT_GT(channel->LastForce[2], 0.0) << "let go at last, it is felt";
+}
 }

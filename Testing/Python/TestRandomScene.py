@@ -172,6 +172,9 @@ class RandomScene:
                     scene.ResetWorkspace,
                     lambda: scene.SetBackgroundBuilding(dice.random() < 0.5),
                     scene.CancelBuild,
+                    scene.Grip,
+                    lambda: scene.GripSurface(dice.choice(self.parts).id),
+                    scene.LetGo,
                     scene.GetServo().GetSafety().PassivityControlOn,
                 )
             )()

@@ -57,7 +57,7 @@ EPILOG = """examples:
   python3 -m vtkhaptics pial.vtp --scalars sulc --device simulated
       a simulated hand strokes it; values are coloured
   python3 -m vtkhaptics skull.vtp vessel.stl --stiffness 800 --side both
-      two surfaces at once, harder, touched from inside too
+      two surfaces at once, harder, touched from inside too; x carries the one that is touched
   python3 -m vtkhaptics t13.stl --offscreen --screenshot t13.png --trace t13.vtp
       no window: a picture and what was felt, one point a tick
   python3 -m vtkhaptics t13.stl --device t13.vtp
