@@ -26,8 +26,8 @@ public:
   bool SetsPace() const noexcept override { return true; }
   bool WaitForSample(std::uint64_t timeout) noexcept override;
 
-  /// Why Read() returned false, for people; empty where it did not or where the transport knows
-  /// better. Any thread.
+  /// Why Read() returned false, for people; empty where it did not, and where the transport ended
+  /// the session and tells why. Any thread.
   const char* GetProblem() const noexcept;
 
 protected:

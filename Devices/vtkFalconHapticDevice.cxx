@@ -106,12 +106,13 @@ void vtkFalconHapticDevice::Update()
   {
     return;
   }
-  // Looked at first: what the transport tells then is the cause of it, if it is to blame.
-  const bool lost = this->Falcon && this->Falcon->IsLost();
   this->Follow(this->Transport->GetStatus());
-  if (lost && this->IsOpen())
+  // Where the channel has no problem of its own the transport is to blame. It tells the cause after
+  // its farewell, which can take 50 ms, and may then bring the device up again.
+  const std::string problem = this->IsOpen() ? this->Falcon->GetProblem() : "";
+  if (!problem.empty())
   {
-    this->Fail(Faulted, this->Falcon->GetProblem());
+    this->Fail(Faulted, problem);
     this->StatusMessage = this->GetErrorMessage();
     this->LetGo();
   }

@@ -53,6 +53,9 @@ int FalconModel::Perform(const Act* act)
     case Do::Unplug:
       this->WantsUnplug = true;
       return 0;
+    case Do::Jam:
+      this->Jammed = true;
+      return 0;
     case Do::ForgetHome:
       this->Homed = 0;
       return 0;
@@ -126,7 +129,7 @@ void FalconModel::Say(const std::vector<std::uint8_t>& bytes, const Act* act)
 {
   std::vector<std::uint8_t> said = bytes;
   const Do what = act ? act->What : Do::ForgetHome;
-  if (what == Do::Silence || what == Do::Unplug)
+  if (what == Do::Silence || what == Do::Jam || what == Do::Unplug)
   {
     return;
   }

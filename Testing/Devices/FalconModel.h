@@ -33,6 +33,7 @@ enum class Do
   Garble,     ///< damages a byte of the answer
   Chatter,    ///< puts rubbish before the answer
   ForgetHome, ///< loses the origin
+  Jam,        ///< takes no byte and says nothing any more
   Unplug      ///< is pulled out, with the transfer pending
 };
 
@@ -91,6 +92,7 @@ struct FalconModel
   Clock::time_point NextTry(Clock::time_point start) const;
   void ClearHalt() { this->Halted = false; }
   bool TakesUnplug();
+  bool IsJammed() const { return this->Jammed; }
 
 private:
   enum class Stage
@@ -114,6 +116,7 @@ private:
   bool Dtr = true;
   bool Halted = false;
   bool WantsUnplug = false;
+  bool Jammed = false;
   int Chunks = 0;
   int Probes = 0;
   int Served = 0;

@@ -69,6 +69,7 @@ const Fault Faults[] = {
   { "Overflow", { At::Serve, 50, Do::Overflow }, true, "(overflow) while exchanging" },
   { "SilenceForGood", { At::Serve, 50, Do::Silence, Always }, true, "did not answer 5 packets in a row" },
   { "RubbishForGood", { At::Serve, 50, Do::Garble, Always }, true, "did not answer 5 packets in a row" },
+  { "JammedForGood", { At::Serve, 50, Do::Jam }, false, "did not answer 5 packets in a row" },
   { "LostOrigin", { At::Serve, 50, Do::ForgetHome }, true, "lost its origin" },
   { "Unplugged", { At::Serve, 50, Do::Unplug }, false, "was unplugged while exchanging" },
 };
@@ -327,6 +328,20 @@ TEST_F(FalconFaults, IsOpenedByItselfOnArrivalWhereAskedTo)
   std::this_thread::sleep_for(std::chrono::milliseconds(10));
   EXPECT_FALSE(this->GotForce()) << "the servo of the last session must not push in this one";
   EXPECT_STREQ(this->Device->GetErrorMessage(), "");
+}
+
+// The farewell to a device that takes no byte lasts: the servo notices long before it is told.
+TEST_F(FalconFaults, IsOpenedByItselfAfterItWasJammed)
+{
+  FalconModel model;
+  model.Script = { { At::Serve, 50, Do::Jam } };
+  this->Bus.Plug(1, model);
+  this->Device->OpenOnArrivalOn();
+  ASSERT_TRUE(this->BecomesReady());
+  ASSERT_TRUE(this->RunUntil(vtkHapticDevice::Faulted, Push));
+  this->Bus.Unplug(1);
+  this->Bus.Plug(1, FalconModel());
+  EXPECT_TRUE(this->RunUntil(vtkHapticDevice::Ready)) << this->Device->GetStatusMessage();
 }
 
 TEST_F(FalconFaults, RefusesTorqueScalesOutOfRange)

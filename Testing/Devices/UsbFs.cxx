@@ -159,6 +159,7 @@ void UsbFs::Unplug(int port)
       return;
     }
     device.Gone = true;
+    device.Waiting.splice(device.Waiting.end(), device.Stuck);
     for (const Pending& pending : device.Waiting)
     {
       this->Finish(device, pending.Urb, -ESHUTDOWN, 0);
@@ -284,6 +285,10 @@ int UsbFs::Submit(Device& device, usbdevfs_urb* urb)
     const int status = device.Model.Control(bytes[1], bytes[2] | bytes[3] << 8);
     this->Finish(device, urb, status, 0);
   }
+  else if ((urb->endpoint & 0x80) == 0 && device.Model.IsJammed())
+  {
+    device.Stuck.push_back({ urb, FalconModel::Clock::now() });
+  }
   else if ((urb->endpoint & 0x80) == 0)
   {
     const int size = urb->buffer_length;
@@ -304,14 +309,17 @@ int UsbFs::Submit(Device& device, usbdevfs_urb* urb)
 
 int UsbFs::Discard(Device& device, void* urb)
 {
-  for (auto pending = device.Waiting.begin(); pending != device.Waiting.end(); ++pending)
+  for (std::list<Pending>* list : { &device.Waiting, &device.Stuck })
   {
-    if (pending->Urb == urb)
+    for (auto pending = list->begin(); pending != list->end(); ++pending)
     {
-      this->Finish(device, pending->Urb, -ENOENT, 0);
-      device.Waiting.erase(pending);
-      this->Gate(device);
-      return 0;
+      if (pending->Urb == urb)
+      {
+        this->Finish(device, pending->Urb, -ENOENT, 0);
+        list->erase(pending);
+        this->Gate(device);
+        return 0;
+      }
     }
   }
   return -EINVAL;
