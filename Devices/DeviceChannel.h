@@ -32,6 +32,11 @@ public:
   /// Asks for a force in the device frame [N], to be held until the next one.
   virtual void Write(const std::array<double, 3>& force) noexcept = 0;
 
+  /// For a device that gets a force later than Write() returns: sleeps until what was written last
+  /// has reached it or cannot any more, at most `timeout` [ns]. A run that has ended is followed by
+  /// it, so that a process that goes on to end leaves no force. The servo thread alone.
+  virtual void Settle(std::uint64_t timeout) noexcept { (void)timeout; }
+
   /// True where the device sets the pace: its servo waits for samples, not for a clock.
   virtual bool SetsPace() const noexcept { return false; }
   /// For a device that sets the pace: sleeps until there is a sample that Read() has not given

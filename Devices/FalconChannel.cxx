@@ -14,6 +14,16 @@ namespace
 // time.
 constexpr double LongestSilence = 0.15; // [s]
 constexpr std::uint64_t NanosecondsInSecond = 1000000000;
+
+timespec DeadlineIn(std::uint64_t timeout) noexcept
+{
+  timespec deadline{};
+  clock_gettime(CLOCK_MONOTONIC, &deadline);
+  const std::uint64_t nanoseconds = static_cast<std::uint64_t>(deadline.tv_nsec) + timeout;
+  deadline.tv_sec += static_cast<std::time_t>(nanoseconds / NanosecondsInSecond);
+  deadline.tv_nsec = static_cast<long>(nanoseconds % NanosecondsInSecond);
+  return deadline;
+}
 }
 
 FalconChannel::FalconChannel(
@@ -98,11 +108,7 @@ void FalconChannel::HaltDevice() noexcept
 
 bool FalconChannel::WaitForSample(std::uint64_t timeout) noexcept
 {
-  timespec deadline{};
-  clock_gettime(CLOCK_MONOTONIC, &deadline);
-  const std::uint64_t nanoseconds = static_cast<std::uint64_t>(deadline.tv_nsec) + timeout;
-  deadline.tv_sec += static_cast<std::time_t>(nanoseconds / NanosecondsInSecond);
-  deadline.tv_nsec = static_cast<long>(nanoseconds % NanosecondsInSecond);
+  const timespec deadline = DeadlineIn(timeout);
   // The bell rang for answers that were read long ago, too.
   while (!this->TookAnswer)
   {
@@ -113,5 +119,17 @@ bool FalconChannel::WaitForSample(std::uint64_t timeout) noexcept
     }
   }
   return true;
+}
+
+void FalconChannel::Settle(std::uint64_t timeout) noexcept
+{
+  const timespec deadline = DeadlineIn(timeout);
+  // The exchange that is under way may carry the demand before; the next one carries the last.
+  // Read by an addition: whatever adds after it sees the demand.
+  const std::uint64_t enough = this->Link->Exchanges.fetch_add(0, std::memory_order_acq_rel) + 2;
+  while (this->Link->Exchanges.load(std::memory_order_acquire) < enough &&
+    !this->Link->Over.load(std::memory_order_acquire) && this->Link->Bell.WaitUntil(deadline))
+  {
+  }
 }
 }

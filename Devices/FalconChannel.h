@@ -25,6 +25,7 @@ public:
 
   bool SetsPace() const noexcept override { return true; }
   bool WaitForSample(std::uint64_t timeout) noexcept override;
+  void Settle(std::uint64_t timeout) noexcept override;
 
   /// Why Read() returned false, for people; empty where it did not, and where the transport ended
   /// the session and tells why. Any thread.

@@ -73,7 +73,7 @@ bool FalconExchange::TryOnce(const FalconCommand& command, FalconReply& reply, i
   this->Link.MalformedPackets.store(this->Reader.GetNumberOfMalformed(), std::memory_order_relaxed);
   if (answered)
   {
-    this->Link.Exchanges.fetch_add(1, std::memory_order_relaxed);
+    this->Link.Exchanges.fetch_add(1, std::memory_order_acq_rel); // see FalconChannel::Settle()
   }
   return answered;
 }

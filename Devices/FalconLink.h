@@ -94,10 +94,12 @@ struct FalconLink
   LatestValue<FalconDemand> Demands;
   /// How often a watchdog let go of all force: what was asked for before does not count any more.
   std::atomic<std::uint64_t> Halts{ 0 };
-  /// Posted with every answer.
+  /// Posted with every answer, and at the end.
   AnswerBell Bell;
   /// True while the device is homed and answers.
   std::atomic<bool> Up{ false };
+  /// True from when the device has been let go of: it gets nothing through this link any more.
+  std::atomic<bool> Over{ false };
   /// What lights while the device is ready, bits of FalconLed. From the GUI.
   std::atomic<std::uint8_t> Leds{ FalconLedGreen };
 

@@ -1,5 +1,6 @@
 #include "FalconTransport.h"
 
+#include "EndingSignals.h"
 #include "FalconBoot.h"
 #include "FalconExchange.h"
 #include "FalconUsb.h"
@@ -43,6 +44,8 @@ public:
     }
     this->Usb.Close();
     this->Usb.SetStoppable(true);
+    this->Link.Over.store(true, std::memory_order_release);
+    this->Link.Bell.Ring();
   }
   Parting(const Parting&) = delete;
   Parting& operator=(const Parting&) = delete;
@@ -109,6 +112,7 @@ void FalconTransport::Tell(FalconPhase phase, const std::string& text)
 
 void FalconTransport::Run()
 {
+  LeaveEndingSignalsToOtherThreads();
   try
   {
     this->RunSessions();

@@ -21,7 +21,7 @@
  * reads.
  *
  * The last that the device gets is zero force: on Close(), destruction and every fault that leaves
- * it able to listen.
+ * it able to listen, and where the process ends while a servo runs (see haptics::EmergencyStop).
  *
  * @sa vtkHapticDevice vtkHapticServo
  */

@@ -1,5 +1,6 @@
 #include "EmergencyStop.h"
 
+#include "EndingSignals.h"
 #include "ServoCycle.h"
 
 #include <array>
@@ -11,7 +12,6 @@
 #include <cerrno>
 #include <csignal>
 #include <ctime>
-#include <pthread.h>
 #endif
 
 namespace haptics
@@ -27,8 +27,7 @@ static_assert(std::atomic<std::uint32_t>::is_always_lock_free, "used in signal h
 thread_local ServoCycle* OwnCycle = nullptr;
 
 #ifdef __unix__
-constexpr std::array<int, 4> Signals{ SIGINT, SIGTERM, SIGHUP, SIGQUIT };
-std::array<struct sigaction, Signals.size()> Previous;
+std::array<struct sigaction, EndingSignals.size()> Previous;
 
 void Sleep(long nanoseconds) noexcept
 {
@@ -62,9 +61,9 @@ void HandleSignal(int signal, siginfo_t* information, void* context)
 {
   const int error = errno;
   StopAllServos();
-  for (std::size_t i = 0; i < Signals.size(); ++i)
+  for (std::size_t i = 0; i < EndingSignals.size(); ++i)
   {
-    if (Signals[i] != signal)
+    if (EndingSignals[i] != signal)
     {
       continue;
     }
@@ -88,12 +87,12 @@ void HandleSignal(int signal, siginfo_t* information, void* context)
 
 void TakeSignals()
 {
-  for (std::size_t i = 0; i < Signals.size(); ++i)
+  for (std::size_t i = 0; i < EndingSignals.size(); ++i)
   {
     struct sigaction present
     {
     };
-    sigaction(Signals[i], nullptr, &present);
+    sigaction(EndingSignals[i], nullptr, &present);
     const bool hasInformation = (present.sa_flags & SA_SIGINFO) != 0;
     const bool isIgnored = !hasInformation && present.sa_handler == SIG_IGN;
     const bool isOurs = hasInformation && present.sa_sigaction == HandleSignal;
@@ -106,7 +105,7 @@ void TakeSignals()
       ours.sa_sigaction = HandleSignal;
       ours.sa_flags = SA_SIGINFO | (present.sa_flags & (SA_RESTART | SA_ONSTACK));
       ours.sa_mask = present.sa_mask;
-      sigaction(Signals[i], &ours, nullptr);
+      sigaction(EndingSignals[i], &ours, nullptr);
     }
   }
 }
@@ -141,19 +140,6 @@ void EmergencyStop::Install()
   }
   static const bool isRegistered = std::atexit(HandleExit) == 0;
   (void)isRegistered;
-}
-
-void EmergencyStop::LeaveSignalsToOtherThreads() noexcept
-{
-#ifdef __unix__
-  sigset_t signals;
-  sigemptyset(&signals);
-  for (const int signal : Signals)
-  {
-    sigaddset(&signals, signal);
-  }
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-#endif
 }
 
 EmergencyStop::EmergencyStop(ServoCycle& cycle) noexcept

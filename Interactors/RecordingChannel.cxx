@@ -1,6 +1,6 @@
 #include "RecordingChannel.h"
 
-#include "EmergencyStop.h"
+#include "EndingSignals.h"
 
 #include <chrono>
 #include <system_error>
@@ -93,7 +93,7 @@ void RecordingChannel::Write(const std::array<double, 3>& force) noexcept
 
 void RecordingChannel::Run()
 {
-  EmergencyStop::LeaveSignalsToOtherThreads();
+  LeaveEndingSignalsToOtherThreads();
   std::unique_lock<std::mutex> lock(this->Mutex);
   bool isLast = false;
   while (!isLast)

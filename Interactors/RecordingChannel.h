@@ -47,6 +47,7 @@ public:
 
   bool Read(double time, DeviceSample& sample) noexcept override;
   void Write(const std::array<double, 3>& force) noexcept override;
+  void Settle(std::uint64_t timeout) noexcept override { this->Device->Settle(timeout); }
   bool SetsPace() const noexcept override { return this->Device->SetsPace(); }
   bool WaitForSample(std::uint64_t timeout) noexcept override
   {

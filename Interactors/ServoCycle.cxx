@@ -10,6 +10,9 @@ namespace haptics
 {
 namespace
 {
+// A USB device that loses a reply gets the zero 20 ms later.
+constexpr std::uint64_t SettleTime = 30000000; // [ns]
+
 bool IsFinite(const Vec3& v) noexcept
 {
   return std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); });
@@ -173,5 +176,6 @@ void ServoCycle::End(ServoState state) noexcept
     this->Latest.Publish(this->Now);
   }
   this->State.store(state, std::memory_order_release);
+  this->Channel->Settle(SettleTime);
 }
 }

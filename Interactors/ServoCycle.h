@@ -90,7 +90,8 @@ public:
   bool Tick(double time) noexcept;
   /// Goes on after a watchdog has halted the device: the force grows softly from zero.
   void Resume() noexcept;
-  /// Ends the run: asks for zero force and becomes `state`.
+  /// Ends the run: asks for zero force, becomes `state`, and waits until the device has got the
+  /// zero, at most 30 ms; Tick() does so at a fault.
   void End(ServoState state) noexcept;
   ///@}
 

@@ -2,6 +2,7 @@
 
 #include "DeviceChannel.h"
 #include "EmergencyStop.h"
+#include "EndingSignals.h"
 #include "MonotonicClock.h"
 #include "OverrunBudget.h"
 #include "RealTimePriority.h"
@@ -39,7 +40,7 @@ bool ServoLoop::Start(const ServoTiming& timing, std::string& error)
     this->Thread = std::thread(
       [this, timing, promise = std::move(promise)]() mutable
       {
-        EmergencyStop::LeaveSignalsToOtherThreads();
+        LeaveEndingSignalsToOtherThreads();
         promise.set_value(timing.RealTimePriority ? RequestRealTimePriority(Urgency::Servo) : 0);
         this->Run(timing);
       });

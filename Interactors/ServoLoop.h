@@ -58,8 +58,8 @@ public:
   /// Starts the thread on a cycle that has begun. False, with the cause in `error`, where the
   /// system gives no thread. Stop() first.
   bool Start(const ServoTiming& timing, std::string& error);
-  /// Asks for zero force, ends the thread and waits for that: about a period. Does nothing where
-  /// there is none.
+  /// Asks for zero force, ends the thread and waits for that: about a period, and until the device
+  /// has got the zero, see ServoCycle::End(). Does nothing where there is no thread.
   void Stop();
   /// 0 where the thread of the last start got real-time priority, else the errno that tells why
   /// not; meaningful where it was asked for.

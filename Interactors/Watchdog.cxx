@@ -1,7 +1,7 @@
 #include "Watchdog.h"
 
 #include "DeviceChannel.h"
-#include "EmergencyStop.h"
+#include "EndingSignals.h"
 #include "RealTimePriority.h"
 
 #include <chrono>
@@ -27,7 +27,7 @@ Watchdog::~Watchdog()
 
 void Watchdog::Run()
 {
-  EmergencyStop::LeaveSignalsToOtherThreads();
+  LeaveEndingSignalsToOtherThreads();
   RequestRealTimePriority(Urgency::AboveServo);
   // Four looks a limit: it bites after 1 to 1.25 limits.
   const auto look = std::chrono::nanoseconds(this->Limit / 4 + 1);

@@ -186,7 +186,8 @@ public:
    * records of the run before; does nothing while running.
    */
   bool Start();
-  /// Ask for zero force and stop, waiting about a period for the thread. Keeps the statistics.
+  /// Ask for zero force and stop, waiting about a period for the thread, and on a USB device for
+  /// the zero to get there: some milliseconds, at most 30. Keeps the statistics.
   void Stop();
   /**
    * Run n >= 0 ticks in virtual time, one period apart (or at the times of a recording, where the

@@ -213,6 +213,10 @@ int FalconModel::TakePacket(const haptics::FalconPacket& packet)
     return 0;
   }
   this->Commands.push_back(command);
+  if (this->OnCommand)
+  {
+    this->OnCommand(command);
+  }
   if (!command.Home)
   {
     this->Homed = 0;

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -64,6 +65,7 @@ struct FalconModel
   int HomesAfter = 5;              ///< packets a leg; negative: nobody homes it
   std::array<std::int16_t, 3> Encoders{ { 300, 310, 320 } };
   std::uint8_t Buttons = 0;
+  std::function<void(const haptics::FalconCommand&)> OnCommand; ///< called with every packet
   ///@}
 
   ///@{

@@ -1,3 +1,4 @@
+#include "RecordingChannel.h"
 #include "ServoCycle.h"
 #include "ServoTestTools.h"
 #include "SurfaceProperties.h"
@@ -267,6 +268,39 @@ TEST(ServoCycle, AsksForNoForceAtItsEnd)
   EXPECT_EQ(cycle.GetState(), ServoState::Stopped);
   ASSERT_TRUE(cycle.UpdateLatest());
   EXPECT_EQ(cycle.GetLatest().Force, NoForce);
+}
+
+/// A device that gets forces later than they are written.
+class SettlingChannel : public ScriptedChannel
+{
+public:
+  std::vector<Vec3> Settled; ///< what was written last each time that somebody waited
+  void Settle(std::uint64_t) noexcept override { this->Settled.push_back(this->LastForce); }
+};
+
+TEST(ServoCycle, WaitsAtItsEndUntilTheDeviceHasTheZero)
+{
+  for (const bool isLost : { false, true })
+  {
+    ServoCycle cycle(1024);
+    cycle.GetExchange().Publish(MakeGodObject(MakePlane()));
+    const auto device = std::make_shared<SettlingChannel>();
+    const auto press = MakePressingHand(0.002)->Hand;
+    device->Hand = [&](double time, haptics::DeviceSample& sample)
+    { return press(time, sample) && !(isLost && time > 99.5 * Period); };
+    cycle.Begin(std::make_shared<haptics::RecordingChannel>(device), ServoState::Stepping);
+    ASSERT_EQ(RunTicks(cycle, 100), 100);
+    EXPECT_TRUE(device->Settled.empty()) << "not while it runs";
+    if (isLost)
+    {
+      EXPECT_FALSE(cycle.Tick(100 * Period));
+    }
+    else
+    {
+      cycle.End(ServoState::Interrupted);
+    }
+    EXPECT_EQ(device->Settled, std::vector<Vec3>{ NoForce });
+  }
 }
 
 TEST(ServoCycle, StaysOnTheSurfaceWhenTheSurfacesArePublishedAgain)

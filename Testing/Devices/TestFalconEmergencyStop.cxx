@@ -1,0 +1,214 @@
+// A child process presses on a plane with a Falcon on a USB bus of its own and ends in one of many
+// ways; the last packet that the Falcon got is in memory shared with this process.
+#include "EndingSignals.h"
+#include "FalconKinematics.h"
+#include "ServoTestTools.h"
+#include "UsbFs.h"
+#include "vtkFalconHapticDevice.h"
+#include "vtkHapticSafety.h"
+#include "vtkHapticServo.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <functional>
+#include <new>
+#include <stdexcept>
+#include <thread>
+
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+// A child that ends while it presses leaves threads behind: that is what is tested.
+extern "C" const char* __tsan_default_options()
+{
+  return "report_thread_leaks=0";
+}
+
+namespace
+{
+constexpr int NeverPressed = 97;
+constexpr int CameBack = 98;
+
+/// What the Falcon got, for both processes.
+struct Received
+{
+  std::atomic<bool> Pushes{ false }; ///< in the last packet
+  std::atomic<bool> HasPushed{ false };
+};
+
+std::array<std::int16_t, 3> EncodersAt(double height)
+{
+  haptics::FalconKinematics::Vector angles{};
+  haptics::FalconKinematics::Inverse({ 0.0, 0.0, height }, angles);
+  std::array<std::int16_t, 3> counts{};
+  for (std::size_t leg = 0; leg < counts.size(); ++leg)
+  {
+    counts[leg] = haptics::FalconKinematics::CountOfAngle(angles[leg]);
+  }
+  return counts;
+}
+
+void TakeEndingSignals()
+{
+  sigset_t none;
+  sigemptyset(&none);
+  pthread_sigmask(SIG_SETMASK, &none, nullptr);
+}
+
+bool WaitFor(const std::function<bool()>& condition)
+{
+  const auto end = FalconModel::Clock::now() + std::chrono::seconds(10);
+  while (!condition() && FalconModel::Clock::now() < end)
+  {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return condition();
+}
+
+/// Presses 2 mm into a plane; nothing is ever destroyed.
+bool Press(UsbFs& bus, Received& received)
+{
+  FalconModel model;
+  model.Encoders = EncodersAt(0.131);
+  model.OnCommand = [&received](const haptics::FalconCommand& command)
+  {
+    received.Pushes = command.Torques != std::array<std::int16_t, 3>{};
+    received.HasPushed = received.HasPushed || received.Pushes;
+  };
+  bus.Plug(1, model);
+  auto* device = vtkFalconHapticDevice::New();
+  device->Open();
+  auto* servo = vtkHapticServo::New();
+  servo->SetDevice(device);
+  servo->SetStallLimit(60.0);
+  servo->GetSafety()->LoosenWatchdogTime(1.0);
+  servo->GetSafety()->LoosenMissedTickShare(60.0);
+  servo->PublishGodObject(MakeGodObject(MakePlane(0.13, 0.1)));
+  const auto isOpen = [device]
+  {
+    device->Update();
+    return device->IsOpen();
+  };
+  if (!WaitFor(isOpen) || !servo->Start() ||
+    !WaitFor([servo] { return servo->GetNumberOfTicks() > 50; }))
+  {
+    return false;
+  }
+  bus.With(1, [](FalconModel& pressed) { pressed.Encoders = EncodersAt(0.128); });
+  return WaitFor([&received] { return received.Pushes.load(); });
+}
+
+class FalconEmergencyStop : public testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    if (!UsbFs::IsPossible())
+    {
+      GTEST_SKIP() << "There are no pseudo-terminals here: mount devpts at /dev/pts.";
+    }
+    this->Memory =
+      mmap(nullptr, sizeof(Received), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    ASSERT_NE(this->Memory, MAP_FAILED);
+  }
+  void TearDown() override
+  {
+    if (this->Memory)
+    {
+      munmap(this->Memory, sizeof(Received));
+    }
+  }
+
+  /// Runs `end` in a child that presses; gives how the child ended.
+  template <typename Function>
+  int EndWhilePressing(Function end)
+  {
+    auto* received = new (this->Memory) Received;
+    const pid_t child = fork();
+    if (child == 0)
+    {
+      haptics::LeaveEndingSignalsToOtherThreads(); // the bus is no thread of ours, and must go on
+      auto* bus = new UsbFs;
+      TakeEndingSignals();
+      if (!Press(*bus, *received))
+      {
+        _exit(NeverPressed);
+      }
+      end(*bus);
+      _exit(CameBack);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    EXPECT_TRUE(received->HasPushed);
+    EXPECT_FALSE(received->Pushes) << "the last packet that the Falcon got";
+    return status;
+  }
+
+  void* Memory = nullptr;
+};
+
+TEST_F(FalconEmergencyStop, TheLastPacketBeforeASignalEndsTheProcessIsZero)
+{
+  for (const int signal : { SIGTERM, SIGINT, SIGQUIT })
+  {
+    const int status = this->EndWhilePressing([signal](UsbFs&) { raise(signal); });
+    ASSERT_TRUE(WIFSIGNALED(status)) << status;
+    EXPECT_EQ(WTERMSIG(status), signal);
+  }
+}
+
+TEST_F(FalconEmergencyStop, NoThreadThatTheZeroNeedsTakesASignalToTheProcess)
+{
+  const int status = this->EndWhilePressing(
+    [](UsbFs&)
+    {
+      haptics::LeaveEndingSignalsToOtherThreads();
+      kill(getpid(), SIGTERM);
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      TakeEndingSignals(); // nobody did so far
+      std::this_thread::sleep_for(std::chrono::seconds(20));
+    });
+  ASSERT_TRUE(WIFSIGNALED(status)) << status;
+  EXPECT_EQ(WTERMSIG(status), SIGTERM);
+}
+
+TEST_F(FalconEmergencyStop, TheLastPacketIsZeroThoughRepliesAreLostJustThen)
+{
+  const int status = this->EndWhilePressing(
+    [](UsbFs& bus)
+    {
+      bus.With(1,
+        [](FalconModel& model) {
+          model.Script = { { At::Serve, 0, Do::Silence, Always } };
+        });
+      raise(SIGTERM);
+    });
+  ASSERT_TRUE(WIFSIGNALED(status)) << status;
+  EXPECT_EQ(WTERMSIG(status), SIGTERM);
+}
+
+TEST_F(FalconEmergencyStop, TheLastPacketBeforeTheProcessExitsIsZero)
+{
+  const int status = this->EndWhilePressing([](UsbFs&) { std::exit(3); });
+  ASSERT_TRUE(WIFEXITED(status)) << status;
+  EXPECT_EQ(WEXITSTATUS(status), 3);
+}
+
+TEST_F(FalconEmergencyStop, TheLastPacketBeforeAnExceptionThatNobodyCatchesIsZero)
+{
+  const int status = this->EndWhilePressing(
+    [](UsbFs&)
+    {
+      std::thread thrower([] { throw std::runtime_error("nobody's"); });
+      thrower.join();
+    });
+  ASSERT_TRUE(WIFSIGNALED(status)) << status;
+  EXPECT_EQ(WTERMSIG(status), SIGABRT);
+}
+}
