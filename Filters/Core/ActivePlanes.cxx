@@ -17,6 +17,7 @@ void ActivePlanes::Clear()
 {
   this->Count = 0;
   this->NumberOfSupports = 0;
+  this->IsOverAll = false;
 }
 
 bool ActivePlanes::Has(const FacetId& facet) const
@@ -27,6 +28,7 @@ bool ActivePlanes::Has(const FacetId& facet) const
 
 void ActivePlanes::Add(const ActivePlane& plane)
 {
+  this->IsOverAll = false;
   if (this->Count < Capacity)
   {
     this->Planes[this->Count++] = plane;

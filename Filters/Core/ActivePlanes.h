@@ -48,20 +48,24 @@ public:
   template <class Test>
   void KeepSupports(const Test& isKept)
   {
-    std::array<ActivePlane, 3> kept;
+    // Supports are in the planes' order, so none is overwritten before it is asked for.
     int count = 0;
     for (int i = 0; i < this->NumberOfSupports; ++i)
     {
-      if (isKept(this->Support(i)))
+      const int from = this->Supports[i];
+      if (isKept(this->Planes[from]))
       {
-        kept[count++] = this->Support(i);
+        if (count != from)
+        {
+          this->Planes[count] = this->Planes[from];
+        }
+        ++count;
       }
     }
+    const bool areOver = this->IsOverAll;
     this->Clear();
-    for (int i = 0; i < count; ++i)
-    {
-      this->Add(kept[i]);
-    }
+    this->Count = count;
+    this->IsOverAll = areOver;
   }
   /// Puts the planes where their facets are now; each is handed to `renew` to be changed.
   template <class Renewal>
@@ -71,7 +75,15 @@ public:
     {
       renew(this->Planes[i]);
     }
+    this->IsOverAll = false;
   }
+
+  ///@{
+  /// Whether the god-object, where it stands, is known to be over the facet of each plane that
+  /// supports: so that nobody looks twice. Who moves it takes that back; so does any other plane.
+  bool IsKnownOver() const { return this->IsOverAll; }
+  void SetKnownOver(bool isOver) { this->IsOverAll = isOver; }
+  ///@}
   bool IsEmpty() const { return this->Count == 0; }
   bool Has(const FacetId& facet) const;
   /// Adds a plane; when full, in place of one that does not support the goal.
@@ -88,6 +100,16 @@ public:
   /// The planes that hold the last nearest point: at most three.
   int SupportSize() const { return this->NumberOfSupports; }
   const ActivePlane& Support(int i) const { return this->Planes[this->Supports[i]]; }
+  /// Their facets; none beyond SupportSize().
+  std::array<FacetId, 3> SupportFacets() const
+  {
+    std::array<FacetId, 3> facets;
+    for (int i = 0; i < this->NumberOfSupports; ++i)
+    {
+      facets[i] = this->Support(i).Facet;
+    }
+    return facets;
+  }
 
 private:
   bool Solve(const Vector& wish, bool raise, const Vector& from, Vector& nearest);
@@ -96,6 +118,7 @@ private:
   int Count = 0;
   std::array<int, 3> Supports{};
   int NumberOfSupports = 0;
+  bool IsOverAll = false;
 };
 }
 

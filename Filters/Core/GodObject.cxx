@@ -100,22 +100,24 @@ void GodObject::Implementation::Update(const Vector& hip)
   this->Walk(hip);
 }
 
-/// Moves to the nearest point to the goal that the surfaces let it reach.
-void GodObject::Implementation::Walk(const Vector& goal)
+/// Moves to the nearest point to the goal that the surfaces let it reach. True if it came there.
+bool GodObject::Implementation::Walk(const Vector& goal)
 {
   while (this->PassesLeft-- > 0)
   {
     const Vector before = this->Position;
     const bool arrived = this->Pass(goal);
-    if (this->IsOverloaded || this->Position == goal || (arrived && this->IsSupported()))
+    if (this->Position == goal || (arrived && this->IsSupported()))
     {
-      break;
+      return true;
     }
-    if (SquaredLength(this->Position - before) <= 1e-18 * SquaredLength(goal - before))
+    if (this->IsOverloaded ||
+      SquaredLength(this->Position - before) <= 1e-18 * SquaredLength(goal - before))
     {
-      break;
+      return false;
     }
   }
+  return false;
 }
 
 /// The first facet that any surface has in the way. False: more to look at than a tick may.
@@ -165,8 +167,7 @@ bool GodObject::Implementation::Pass(const Vector& hip)
 {
   // The facets that the god-object lies on hold it still: the cast to the HIP would meet them
   // first, so it is left out.
-  this->Active.KeepSupports(
-    [this](const ActivePlane& plane) { return !plane.IsFar && this->IsOver(plane); });
+  this->KeepSupports(false);
   Vector goal = this->Active.IsEmpty() ? hip : this->Active.Nearest(this->Position, hip);
   for (int cast = 0; cast < LargestNumberOfCasts; ++cast)
   {
@@ -221,6 +222,7 @@ bool GodObject::Implementation::MoveTowards(const Vector& target)
     {
       this->MoveSets();
       this->Position = to;
+      this->Active.SetKnownOver(false);
       this->Way[this->WaySize++] = ToVec3(to);
       return halving == 0;
     }
@@ -232,16 +234,25 @@ bool GodObject::Implementation::MoveTowards(const Vector& target)
 
 /// Whether each plane that holds the god-object does so with its own facet. One that holds it
 /// beyond its facet's edges has to be let go of: Fig. 5b.
-bool GodObject::Implementation::IsSupported() const
+bool GodObject::Implementation::IsSupported()
 {
-  for (int i = 0; i < this->Active.SupportSize(); ++i)
+  for (int i = 0; i < this->Active.SupportSize() && !this->Active.IsKnownOver(); ++i)
   {
     if (!this->IsOver(this->Active.Support(i)))
     {
       return false;
     }
   }
+  this->Active.SetKnownOver(true);
   return true;
+}
+
+/// Keeps of the planes that held the god-object those that do so with their own facets.
+void GodObject::Implementation::KeepSupports(bool keepsFar)
+{
+  this->Active.KeepSupports([&](const ActivePlane& plane)
+    { return (keepsFar || !plane.IsFar) && (this->Active.IsKnownOver() || this->IsOver(plane)); });
+  this->Active.SetKnownOver(true);
 }
 
 bool GodObject::Implementation::IsOver(const ActivePlane& plane) const

@@ -26,9 +26,12 @@ void GodObject::Implementation::WalkWithFriction(const Vector& hip)
     {
       return; // stuck, or slid as far as the friction lets it
     }
-    this->Walk(goal);
+    const auto before = this->Active.SupportFacets();
+    const bool arrived = this->Walk(goal);
     const bool isHeld = this->Active.SupportSize() > 0;
-    if (this->IsOverloaded || (isHeld && slide + 1 == LargestNumberOfSlides))
+    // On the same facets the cone stands as it stood: there is no more to slide.
+    const bool isDone = arrived && this->Active.SupportFacets() == before;
+    if (this->IsOverloaded || (isHeld && (isDone || slide + 1 == LargestNumberOfSlides)))
     {
       return;
     }
@@ -45,7 +48,7 @@ Vector GodObject::Implementation::AimWithFriction(const Vector& hip)
   {
     return hip;
   }
-  this->Active.KeepSupports([this](const ActivePlane& plane) { return this->IsOver(plane); });
+  this->KeepSupports(true);
   const Vector nearest = this->Active.IsEmpty() ? hip : this->Active.Nearest(this->Position, hip);
   if (this->Active.SupportSize() == 0)
   {

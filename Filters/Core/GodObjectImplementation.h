@@ -71,10 +71,11 @@ private:
 
   void WalkWithFriction(const Vector& hip);
   Vector AimWithFriction(const Vector& hip);
-  void Walk(const Vector& goal);
+  bool Walk(const Vector& goal);
   bool Pass(const Vector& hip);
   bool MoveTowards(const Vector& target);
-  bool IsSupported() const;
+  bool IsSupported();
+  void KeepSupports(bool keepsFar);
   bool IsOver(const ActivePlane& plane) const;
 
   SurfaceFrame FrameOf(std::int32_t surface, const RigidPose& pose) const;

@@ -123,7 +123,12 @@ bool GodObject::Implementation::HasArrived() const
 
 void GodObject::Implementation::Advance(double dt, double haste)
 {
-  if ((this->Movers.empty() && this->Deforming.empty()) || !this->MoveSurfaces(dt, haste))
+  if (this->Movers.empty() && this->Deforming.empty())
+  {
+    return;
+  }
+  this->Active.SetKnownOver(false);
+  if (!this->MoveSurfaces(dt, haste))
   {
     return;
   }
