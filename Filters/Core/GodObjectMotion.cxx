@@ -12,7 +12,8 @@ constexpr double SmallestPart = 1.0 / 32.0;
 
 SurfaceFrame GodObject::Implementation::FrameOf(std::int32_t surface, const RigidPose& pose) const
 {
-  return SurfaceFrame(pose, ToVector(this->Surfaces[surface].Surface->Origin()), this->Origin);
+  const TriangleSurface& touched = *this->Surfaces[surface].Surface;
+  return SurfaceFrame(pose, ToVector(touched.Origin()), touched.Radius(), this->Origin);
 }
 
 void GodObject::Implementation::TakePose(Mover& mover)

@@ -202,7 +202,7 @@ std::shared_ptr<const TriangleSurface> SurfaceDeformer::Make(
   const Vector origin = ToVector(from.SurfaceOrigin);
   for (Vec3& p : points)
   {
-    p = ToVec3(ToVector(p) - origin);
+    p = ToVec3(WithoutNegligible(ToVector(p) - origin, NegligibleShare * from.SurfaceRadius));
   }
   next->LocalPoints = std::make_shared<const std::vector<Vec3>>(std::move(points));
   if (!next->Measure(&from))

@@ -45,8 +45,10 @@ class SurfaceFrame
 public:
   SurfaceFrame() = default;
   /// `surfaceOrigin`: of the surface's local frame, before it moved; `sceneOrigin`: in the world.
-  SurfaceFrame(const RigidPose& pose, const Vector& surfaceOrigin, const Vector& sceneOrigin)
+  SurfaceFrame(const RigidPose& pose, const Vector& surfaceOrigin, double surfaceRadius,
+    const Vector& sceneOrigin)
     : IsTurned(pose.Rotation != RigidPose().Rotation)
+    , Negligible(NegligibleShare * surfaceRadius)
   {
     if (this->IsTurned)
     {
@@ -63,13 +65,14 @@ public:
   Vector PointToLocal(const Vector& x) const
   {
     const Vector d = x - this->Offset;
-    return this->IsTurned ? this->ToLocalAxes * d : d;
+    return WithoutNegligible(this->IsTurned ? this->ToLocalAxes * d : d, this->Negligible);
   }
   /// The surface's origin in the scene frame.
   const Vector& Origin() const { return this->Offset; }
 
 private:
   bool IsTurned = false;
+  double Negligible = 0.0;
   glm::dmat3 ToSceneAxes{ 1.0 };
   glm::dmat3 ToLocalAxes{ 1.0 };
   Vector Offset{ 0 };

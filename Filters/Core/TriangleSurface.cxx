@@ -73,11 +73,12 @@ double Recentre(TriangleMesh& mesh, Vec3& origin)
   }
   const Vector middle = low + 0.5 * (high - low);
   origin = ToVec3(middle);
+  const double radius = 0.5 * glm::length(high - low) * (1.0 + 0x1p-40);
   for (Vec3& p : mesh.Points)
   {
-    p = ToVec3(ToVector(p) - middle);
+    p = ToVec3(WithoutNegligible(ToVector(p) - middle, NegligibleShare * radius));
   }
-  return 0.5 * glm::length(high - low) * (1.0 + 0x1p-40);
+  return radius;
 }
 
 /// Whether these triangles alone are a surface that encloses space.

@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <cmath>
+
 namespace haptics
 {
 using Vector = glm::dvec3;
@@ -27,6 +29,17 @@ inline double SquaredLength(const Vector& v)
 
 /// Half the distance from 1 to the next float64: the bound on one relative rounding error.
 constexpr double UnitRoundoff = 0x1p-53;
+
+/// What is smaller than this share of a surface's radius is taken for 0 in its local frame: 2^15
+/// times less than rounding is, and CGAL's exact numbers then never outgrow the room that they have
+/// without allocating.
+constexpr double NegligibleShare = 0x1p-68;
+
+inline Vector WithoutNegligible(const Vector& x, double negligible)
+{
+  return { std::abs(x.x) < negligible ? 0.0 : x.x, std::abs(x.y) < negligible ? 0.0 : x.y,
+    std::abs(x.z) < negligible ? 0.0 : x.z };
+}
 }
 
 #endif

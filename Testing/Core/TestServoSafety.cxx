@@ -1,10 +1,12 @@
 // An update in the servo thread may not allocate: this program counts every malloc.
 #include "AnalyticSurfaces.h"
 #include "FeelTools.h"
+#include "Predicates.h"
 #include "SurfaceDeformer.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <random>
@@ -147,4 +149,72 @@ TEST(ServoSafety, NothingThatMovesAllocates)
   }
   EXPECT_EQ(total, 0);
   EXPECT_GT(touching, 1000);
+}
+
+/// Numbers from 1 down to 2^-spread, and as many of either sign.
+class Numbers
+{
+public:
+  explicit Numbers(int spread)
+    : Exponent(-spread, 0)
+  {
+  }
+  double operator()()
+  {
+    return std::ldexp(this->Mantissa(this->Random), this->Exponent(this->Random));
+  }
+
+private:
+  std::mt19937 Random{ 9 };
+  std::uniform_real_distribution<double> Mantissa{ -1.0, 1.0 };
+  std::uniform_int_distribution<int> Exponent;
+};
+
+TEST(ServoSafety, NoPredicateAllocatesOverTheSizesThatASurfaceKeeps)
+{
+  const int least = std::ilogb(NegligibleShare);
+  Numbers number(-least);
+  long total = 0;
+  for (int k = 0; k < 100000; ++k)
+  {
+    // In one plane, so that nothing but exact arithmetic tells.
+    const Vector a{ number(), number(), number() };
+    const Vector d{ number(), number(), number() };
+    IsCounting = true;
+    Allocations = 0;
+    const int side = Orientation(a, 2.0 * a, -4.0 * a, d);
+    IsCounting = false;
+    total += Allocations;
+    ASSERT_EQ(side, 0);
+  }
+  EXPECT_EQ(total, 0);
+}
+
+TEST(ServoSafety, ASurfaceKeepsNoNumbersThatAreAllButZero)
+{
+  // A table as rotations leave it: what should be 0 is noise of any size.
+  TriangleMesh table = Square(1.0, 8);
+  Numbers noise(1000);
+  for (Vec3& p : table.Points)
+  {
+    p = { p[0] + noise(), p[1] + noise(), noise() };
+  }
+  const auto surface = MakeSurface(table, Side::Both);
+  GodObject god({ surface });
+  long zeros = 0;
+  const auto check = [&](const Vec3& p)
+  {
+    for (const double x : p)
+    {
+      zeros += x == 0.0;
+      EXPECT_TRUE(x == 0.0 || std::abs(x) >= NegligibleShare * surface->Radius()) << x;
+    }
+  };
+  std::for_each(surface->Points().begin(), surface->Points().end(), check);
+  for (int i = 0; i < 1000; ++i)
+  {
+    god.Place({ noise(), noise(), noise() });
+    check(god.LocalPosition(0));
+  }
+  EXPECT_GT(zeros, 1000);
 }
