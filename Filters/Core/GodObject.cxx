@@ -285,6 +285,10 @@ bool GodObject::Continue(const GodObject& previous) noexcept
   this->Internal->Result = previous.Internal->Result;
   const bool isSeamless = this->Internal->Continue(*previous.Internal);
   this->Internal->StayInContact(*previous.Internal);
+  if (!isSeamless)
+  {
+    this->Internal->Settle(*previous.Internal);
+  }
   return isSeamless && this->Internal->FeelsAs(*previous.Internal);
 }
 

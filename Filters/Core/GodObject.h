@@ -37,8 +37,8 @@ struct Contact
   Vec3 Position{};     ///< the god-object, world frame
   Vec3 Displacement{}; ///< god-object minus HIP, world axes; keeps its digits far from the origin
   double Penetration = 0.0; ///< |Displacement| [world unit]
-  /// How far surfaces that moved have taken the god-object along or pushed it since the update
-  /// before; world axes. With the force, the work that they did.
+  /// How far surfaces that moved, or changed all at once, have taken the god-object along, pushed it
+  /// or let it go since the update before; world axes. With the force, the work that they did.
   Vec3 Carried{};
   int NumberOfConstraints = 0;
   std::array<Constraint, 3> Constraints;
@@ -99,7 +99,8 @@ public:
   /// or deforms on from where it is, has it where it was. One that takes the place of another
   /// (TouchedSurface::Identity) and has gone over it has it on the nearest place of the side that
   /// it was on: outside a solid that it now is in, or, of an open surface, where it was held, in
-  /// front of what held it. True where nothing has changed at once. Servo thread.
+  /// front of what held it; and then where a hand that rests has it. True where nothing has changed
+  /// at once. Servo thread; as much work as an Update().
   bool Continue(const GodObject& previous) noexcept;
   /// Takes all motions on by `dt` [s], and the god-object with them. `isAwaited`: the next one
   /// waits for HasArrived(), so what deforms goes faster by Haste, and a source that is not quite

@@ -38,6 +38,7 @@ public:
   void Update(const Vector& hip);
   void UpdateFeel();
   void StayInContact(const Implementation& previous);
+  void Settle(const Implementation& previous);
   bool FeelsAs(const Implementation& previous) const;
 
   std::vector<TouchedSurface> Surfaces;
@@ -51,7 +52,7 @@ public:
   /// god-object of its own until they do.
   bool IsSplit = false;
   bool HasProperties = false; ///< of any surface
-  Vector Carried{ 0 };        ///< by surfaces that moved, since the last update
+  Vector Carried{ 0 };        ///< by surfaces that moved or changed, since the last update
   ActivePlanes Active;
   Contact Result;
   std::array<Vec3, LargestWay> Way;

@@ -116,6 +116,19 @@ bool GodObject::Implementation::Continue(const Implementation& previous)
   return same == this->Sets.size() && same == previous.Sets.size();
 }
 
+/// Where surfaces have changed all at once: goes to where they hold a hand that rests, so that what
+/// this does to the spring counts as their own work, be it given or taken.
+void GodObject::Implementation::Settle(const Implementation& previous)
+{
+  const Vector before = previous.Position + (previous.Origin - this->Origin);
+  const bool isConcerned = previous.Result.NumberOfConstraints > 0 || this->Position != before;
+  if (!this->IsSplit && !previous.IsSplit && isConcerned)
+  {
+    this->Update(ToVector(this->Result.Hip) - this->Origin);
+    this->Carried += this->Position - before;
+  }
+}
+
 bool GodObject::Implementation::HasArrived() const
 {
   return std::all_of(this->Deforming.begin(), this->Deforming.end(),

@@ -186,3 +186,32 @@ TEST(ChangingSurfaces, OthersHoldTheGodObjectThatIsPushed)
   EXPECT_FALSE(ExactQueries(list.front().Surface).IsInside(god.LocalPosition(0)));
   EXPECT_NEAR(Length(god.LocalPosition(0)), 0.05, 1e-4);
 }
+
+// A hand at rest: all that a change does to the spring is told as the surfaces' work.
+TEST(ChangingSurfaces, WhatAChangeDoesToAHandAtRestIsCarried)
+{
+  const Vec3 hip{ 0.004, -0.003, 0.026 };
+  auto god = std::make_unique<GodObject>(Listed(MakeSurface(Contour(0, 0.03))));
+  god->Update(1.5 * hip);
+  god->Update(hip);
+  int grown = 0;
+  int shrunk = 0;
+  for (int step = 1; step < 40; ++step)
+  {
+    const Vec3 before = god->Current().Position;
+    god = Changed(*god, MakeSurface(Contour(step, 0.03 + 0.002 * std::sin(0.7 * step))));
+    const Contact& contact = god->Update(hip);
+    ASSERT_EQ(contact.Status, UpdateStatus::Touching);
+    ASSERT_LT(Length(contact.Position - before - contact.Carried), 1e-12) << "step " << step;
+    const double way = Length(contact.Position - hip) - Length(before - hip);
+    grown += way > 1e-4;
+    shrunk += way < -1e-4;
+    ASSERT_EQ(Length(god->Update(hip).Carried), 0.0);
+  }
+  EXPECT_GT(grown, 10);
+  EXPECT_GT(shrunk, 10);
+  GodObject free(std::vector<TouchedSurface>{});
+  free.Continue(*god);
+  const Vec3 before = god->Current().Position;
+  EXPECT_LT(Length(free.Update(hip).Carried - (hip - before)), 1e-12) << "it is gone";
+}
