@@ -74,9 +74,9 @@ void GodObject::Implementation::Place(const Vector& position)
   }
   for (std::size_t i = this->Felt; isFirst && i < this->Sets.size(); ++i)
   {
-    const SurfaceMotion* const motion = this->Surfaces[i].Motion.get();
+    SurfaceMotion* const motion = this->Surfaces[i].Motion.get();
     this->Sets[i].SetFrame(
-      this->FrameOf(static_cast<std::int32_t>(i), motion ? motion->Pose() : RigidPose()));
+      this->FrameOf(static_cast<std::int32_t>(i), motion ? motion->Advance(0.0) : RigidPose()));
     this->Sets[i].Place(position);
   }
 }

@@ -29,6 +29,7 @@ struct Bench
   SurfacePointer Part;
   std::shared_ptr<SurfaceMotion> Motion = std::make_shared<SurfaceMotion>(RigidPose());
   SurfacePointer Wall;
+  std::uint64_t Identity = 2; ///< of the part
   std::unique_ptr<GodObject> God;
 
   explicit Bench(TriangleMesh part)
@@ -47,7 +48,7 @@ struct Bench
     TouchedSurface wall(this->Wall);
     wall.Identity = 1;
     TouchedSurface part(this->Part, this->Motion);
-    part.Identity = 2;
+    part.Identity = this->Identity;
     part.IsGripped = isGripped;
     return std::make_unique<GodObject>(std::vector<TouchedSurface>{ wall, part });
   }
@@ -163,6 +164,26 @@ TEST(GrippedSurfaces, ThatChangeShapeMeanwhileKeepTheHandOutside)
     EXPECT_NEAR(contact.Penetration, 0.002, 2e-4);
     EXPECT_FALSE(bench.IsInside());
   }
+}
+
+// Another one in its place has nothing of the point that was gripped: the hand is where it is on
+// it.
+TEST(GrippedSurfaces, ThatOthersTakeThePlaceOfMeanwhileAreLetGoOfWhereTheHandIs)
+{
+  Bench bench(Box(0.02, 0.02, 0.02));
+  bench.MoveTo({ 0.003, 0.005, 0.03 });
+  bench.MoveTo({ 0.003, 0.005, 0.018 });
+  bench.Publish(true);
+  const Vec3 by{ 0.0, 0.0, -0.05 };
+  bench.MoveTo(by + Vec3{ 0.003, 0.005, 0.02 });
+  bench.Motion->JumpTo(At(by));
+  bench.Identity = 3;
+  bench.Part = MakeSurface(Box(0.01, 0.01, 0.01));
+  bench.Publish(true);
+  bench.MoveTo(by + Vec3{ 0.003, 0.005, 0.02 });
+  bench.Publish(false);
+  EXPECT_EQ(bench.MoveTo(by + Vec3{ 0.003, 0.005, 0.015 }).Status, UpdateStatus::Free);
+  EXPECT_NEAR(bench.MoveTo(by + Vec3{ 0.003, 0.005, 0.009 }).Displacement[2], 0.001, Tight);
 }
 
 // Of an open sheet nothing tells which side a hand was on but the point where it was gripped.

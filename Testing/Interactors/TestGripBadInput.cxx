@@ -193,6 +193,72 @@ TEST(GripBadInput, AGeometryThatChangesMeanwhileIsFeltWhenItIsLetGo)
   }
 }
 
+// A beating ball is carried about: other points at each update, the same cells.
+TEST(GripBadInput, APartThatDeformsMeanwhileIsNeverEntered)
+{
+  Workbench bench;
+  bench.Part->VisibilityOff();
+  vtkNew<vtkSphereSource> source;
+  source->SetRadius(0.02);
+  source->SetThetaResolution(40);
+  source->SetPhiResolution(41);
+  source->Update();
+  vtkNew<vtkPolyData> ball;
+  ball->DeepCopy(source->GetOutput());
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(ball);
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  const int id = bench.Scene->AddSurface(actor);
+  double radius = 0.02;
+  double before = radius;
+  int update = 0;
+  const auto beat = [&]()
+  {
+    before = radius;
+    radius = 0.02 + 0.004 * std::sin(0.5 * ++update);
+    vtkNew<vtkPoints> points;
+    for (vtkIdType i = 0; i < ball->GetNumberOfPoints(); ++i)
+    {
+      double p[3];
+      source->GetOutput()->GetPoint(i, p);
+      points->InsertNextPoint(50.0 * radius * p[0], 50.0 * radius * p[1], 50.0 * radius * p[2]);
+    }
+    ball->SetPoints(points);
+  };
+  Point middle{};
+  int gripped = 0;
+  for (int round = 0; round < 12; ++round)
+  {
+    const double push = round % 3 == 0 ? 0.0 : 0.004; // into the ball while it is let go
+    for (int i = 0; i < 10; ++i)
+    {
+      beat();
+      bench.Go(middle[0], middle[1] + 0.001, middle[2] + (i < 4 ? 0.03 : 0.012), 16);
+      middle = bench.Place(actor);
+      ASSERT_GT(Length(bench.GodObject() - middle), 0.99 * std::min(before, radius)) << round;
+    }
+    ASSERT_EQ(bench.Scene->GetTouchedSurface(), id);
+    ASSERT_TRUE(bench.Scene->Grip());
+    for (int i = 1; i <= 6; ++i)
+    {
+      beat();
+      const Point hip = bench.GodObject();
+      bench.Go(hip[0] - 0.003, hip[1], hip[2] + (round % 2 ? 0.004 : -0.004) - push, 16);
+      gripped += bench.Scene->GetGrippedSurface() == id ? 1 : 0;
+    }
+    bench.Scene->LetGo();
+    middle = bench.Place(actor);
+    for (int i = 0; i < 16; ++i)
+    {
+      bench.Scene->Step(1);
+      ASSERT_GT(Length(bench.GodObject() - middle), 0.99 * std::min(before, radius)) << round;
+      ASSERT_FALSE(bench.Scene->GetSqueezed());
+    }
+  }
+  EXPECT_EQ(gripped, 72);
+}
+
 TEST(GripBadInput, AMatrixThatIsNoGoodMeanwhileMovesNothing)
 {
   constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
