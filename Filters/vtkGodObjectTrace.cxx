@@ -1,5 +1,6 @@
 #include "vtkGodObjectTrace.h"
 
+#include "ErrorText.h"
 #include "vtkGodObjectFilter.h"
 #include "vtkHapticProperties.h"
 
@@ -152,14 +153,7 @@ int vtkGodObjectTrace::GetEngine() const
 
 void vtkGodObjectTrace::KeepSurfaceError(vtkObject*, unsigned long, void* text)
 {
-  // "ERROR: In file, line 1\nclass (address): what happened\n\n"
-  this->SurfaceError = static_cast<const char*>(text);
-  const std::size_t start = this->SurfaceError.find("): ");
-  if (start != std::string::npos)
-  {
-    this->SurfaceError.erase(0, start + 3);
-  }
-  this->SurfaceError.erase(this->SurfaceError.find_last_not_of('\n') + 1);
+  haptics::AppendErrorText(this->SurfaceError, static_cast<const char*>(text));
 }
 
 vtkGodObjectFilter* vtkGodObjectTrace::PrepareSurface(vtkPolyData* surface)

@@ -1,5 +1,6 @@
 #include "BackgroundWorker.h"
 
+#include <system_error>
 #include <utility>
 
 namespace haptics
@@ -36,13 +37,23 @@ BackgroundWorker::~BackgroundWorker()
 
 void BackgroundWorker::Start(std::shared_ptr<BackgroundTask> task)
 {
+  if (!this->Thread.joinable())
+  {
+    try
+    {
+      this->Thread = std::thread([this] { this->Work(); });
+    }
+    catch (const std::system_error&) // the system has no thread to give: the caller waits
+    {
+      task->Run();
+      const std::lock_guard<std::mutex> lock(this->Mutex);
+      this->Finished.push_back(std::move(task));
+      return;
+    }
+  }
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
     this->Waiting.push_back(std::move(task));
-  }
-  if (!this->Thread.joinable())
-  {
-    this->Thread = std::thread([this] { this->Work(); });
   }
   this->Changed.notify_all();
 }

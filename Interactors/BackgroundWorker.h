@@ -53,6 +53,7 @@ public:
   BackgroundWorker(const BackgroundWorker&) = delete;
   BackgroundWorker& operator=(const BackgroundWorker&) = delete;
 
+  /// Where there is no thread to be had the task is done before this returns.
   void Start(std::shared_ptr<BackgroundTask> task);
   /// Waits until all tasks are done.
   void Wait();

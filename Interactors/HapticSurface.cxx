@@ -1,5 +1,6 @@
 #include "HapticSurface.h"
 
+#include "ErrorText.h"
 #include "vtkActor.h"
 #include "vtkAlgorithmOutput.h"
 #include "vtkBoundingBox.h"
@@ -67,15 +68,7 @@ void HapticSurface::ListenToErrors()
 void HapticSurface::KeepError(vtkObject*, unsigned long, void* clientData, void* text)
 {
   auto* self = static_cast<HapticSurface*>(clientData);
-  // "ERROR: In file, line 1\nvtkClass (0x1): what happened\n\n" -> "what happened"
-  std::string message = static_cast<const char*>(text);
-  const std::size_t start = message.find("): ");
-  if (start != std::string::npos)
-  {
-    message.erase(0, start + 3);
-  }
-  message.erase(message.find_last_not_of(" \n") + 1);
-  self->PreparationError += (self->PreparationError.empty() ? "" : " ") + message;
+  AppendErrorText(self->PreparationError, static_cast<const char*>(text));
 }
 
 bool HapticSurface::Connect(std::string& error)

@@ -53,26 +53,6 @@ struct Facet
     return 32.0 * UnitRoundoff * this->Condition * distance;
   }
 
-  /// Whether the ball is sure not to meet the triangle: beyond its plane or one of its edges.
-  /// `radius` has to include DistanceError.
-  bool IsApartFrom(const Vector& centre, double radius) const
-  {
-    if (std::abs(glm::dot(this->Normal, centre - this->Corner[this->Anchor])) > radius)
-    {
-      return true;
-    }
-    for (int k = 0; k < 3; ++k)
-    {
-      const Vector edge = this->Corner[(k + 1) % 3] - this->Corner[k];
-      const double inward = glm::dot(glm::cross(this->Normal, edge), centre - this->Corner[k]);
-      if (inward < 0.0 && inward * inward > radius * radius * SquaredLength(edge))
-      {
-        return true;
-      }
-    }
-    return false;
-  }
-
   /// How far in front of this facet the god-object is kept: enough for the side to be certain at
   /// `distance` from it, but never more than a millionth of the facet.
   double Clearance(double minimum, double distance) const
