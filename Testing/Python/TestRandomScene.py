@@ -26,7 +26,12 @@ from vtkmodules.vtkFiltersSources import (
 )
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 
-from vtkhaptics import vtkHapticProperties, vtkHapticScene, vtkSimulatedHapticDevice
+from vtkhaptics import (
+    vtkGodObjectFilter,
+    vtkHapticProperties,
+    vtkHapticScene,
+    vtkSimulatedHapticDevice,
+)
 
 PROPERTIES = (
     vtkHapticProperties.STIFFNESS,
@@ -75,6 +80,9 @@ class Part:
             array = numpy_to_vtk(noise.rand(count), deep=True)
             array.SetName(name)
             data.AddArray(array)
+        sides = numpy_to_vtk(noise.randint(0, 3, self.surface.GetNumberOfCells()), deep=True)
+        sides.SetName("Sides")
+        self.surface.GetCellData().AddArray(sides)
         self.mapper.SetInputData(self.surface)
 
     def deform(self):
@@ -120,6 +128,12 @@ class Part:
             matrix.SetElement(0, 1, self.dice.choice((0.0, 0.3, math.inf)))
             self.actor.SetUserMatrix(self.dice.choice((matrix, matrix, None)))
 
+    def choose_sides(self):
+        array = self.dice.choice(("Sides", "Sides", "AtCells", "none such", None))
+        self.scene.SetSurfacePropertyArray(
+            self.id, vtkGodObjectFilter.SIDE_ARRAY, self.dice.choice(ASSOCIATIONS), array
+        )
+
     def feel(self):
         feel, name = self.scene.GetSurfaceProperties(self.id), self.dice.choice(PROPERTIES)
         way = self.dice.randrange(4)
@@ -160,7 +174,7 @@ class RandomScene:
             part = dice.choice(self.parts)
             dice.choice(
                 (part.deform, part.deform, part.change, part.move, part.move, part.move)
-                + (part.feel, part.feel, part.show_or_hide)
+                + (part.feel, part.feel, part.choose_sides, part.show_or_hide)
             )()
         else:
             dice.choice(
@@ -172,6 +186,9 @@ class RandomScene:
                     scene.ResetWorkspace,
                     lambda: scene.SetBackgroundBuilding(dice.random() < 0.5),
                     scene.CancelBuild,
+                    lambda: scene.GripSurface(dice.choice(self.parts).id),
+                    scene.Grip,
+                    scene.LetGo,
                     scene.Grip,
                     lambda: scene.GripSurface(dice.choice(self.parts).id),
                     scene.LetGo,
