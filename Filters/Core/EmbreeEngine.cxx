@@ -69,6 +69,19 @@ struct PointBounds
   glm::vec4 Low, High; // laid out as in RTCBounds, the last is not used
 };
 
+/// Whether the program ends, and Embree's static objects with it. What outlives them, as
+/// ParaView's session does in a script that ends by sys.exit(), must not call Embree any more. Made
+/// after Embree has made its own, this one goes before them.
+class EmbreeLife
+{
+public:
+  ~EmbreeLife() { Over = true; }
+  static bool IsOver() { return Over; }
+
+private:
+  static inline std::atomic<bool> Over{ false };
+};
+
 class EmbreeEngine final : public CollisionEngine
 {
 public:
@@ -102,12 +115,16 @@ public:
     {
       this->Bounds = {};
     }
+    static const EmbreeLife life;
   }
 
   ~EmbreeEngine() override
   {
-    rtcReleaseScene(this->Scene);
-    rtcReleaseDevice(this->Device);
+    if (!EmbreeLife::IsOver())
+    {
+      rtcReleaseScene(this->Scene);
+      rtcReleaseDevice(this->Device);
+    }
   }
 
   EmbreeEngine(const EmbreeEngine&) = delete;
