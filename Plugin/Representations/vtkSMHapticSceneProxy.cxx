@@ -96,6 +96,7 @@ void vtkSMHapticSceneProxy::UpdateVTKObjects()
     this->Trace();
   }
   this->Superclass::UpdateVTKObjects();
+  this->SyncWorkspace(); // else setting again what another device or view has undone does nothing
 }
 
 void vtkSMHapticSceneProxy::Trace()
@@ -164,7 +165,7 @@ void vtkSMHapticSceneProxy::UpdatePropertyInformation()
   this->Superclass::UpdatePropertyInformation();
 }
 
-/// Fit(), the clutch and others change the transform without this proxy's doing.
+/// Fit(), the clutch, another device or view change the transform without this proxy's doing.
 void vtkSMHapticSceneProxy::SyncWorkspace()
 {
   if (vtkPVHapticScene* scene = this->GetScene())
