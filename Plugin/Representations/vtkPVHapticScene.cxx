@@ -22,8 +22,9 @@ vtkStandardNewMacro(vtkPVHapticScene);
 namespace
 {
 /// How far apart two processes may place the same point [world unit]: some units of the last place
-/// of the precision that points are stored in.
-double SeamWidth(vtkDataSet* data)
+/// of the precision that points are stored in. The last such width where that will still do: with
+/// another one a surface whose points move would be built anew instead of deformed.
+double SeamWidth(vtkDataSet* data, double last)
 {
   auto* surface = vtkPolyData::SafeDownCast(data);
   if (!surface || !surface->GetPoints())
@@ -35,8 +36,9 @@ double SeamWidth(vtkDataSet* data)
   const double largest = *std::max_element(
     bounds, bounds + 6, [](double a, double b) { return std::abs(a) < std::abs(b); });
   const bool isFloat = surface->GetPoints()->GetDataType() == VTK_FLOAT;
-  return 4.0 * std::abs(largest) *
+  const double least = 4.0 * std::abs(largest) *
     (isFloat ? std::numeric_limits<float>::epsilon() : std::numeric_limits<double>::epsilon());
+  return last >= least && last <= 4.0 * least ? last : 2.0 * least;
 }
 }
 
@@ -176,8 +178,9 @@ void vtkPVHapticScene::SyncSurfaces()
       filter->SetSide(self.Side);
       representation->Configure(filter);
       filter->SetMergeToleranceIsAbsolute(true);
+      vtkDataSet* data = surface.Actor->GetMapper()->GetInputAsDataSet();
       filter->SetMergeTolerance(
-        self.InPieces ? SeamWidth(surface.Actor->GetMapper()->GetInputAsDataSet()) : 0.0);
+        self.InPieces ? SeamWidth(data, filter->GetMergeTolerance()) : 0.0);
     }
   }
   for (int i = self.Scene->GetNumberOfSurfaces() - 1; i >= 0; --i)
@@ -330,9 +333,9 @@ void vtkPVHapticScene::SetEngaged(bool engaged)
     return;
   }
   self.Scene->Update();
-  if (self.Choice.Strokes() && self.Scene->IsBuilding())
+  if (this->HasToWait())
   {
-    self.Wanted = true; // a stroke follows surfaces that are there; Update() engages then
+    self.Wanted = true; // Update() engages then
     return;
   }
   if (!this->Prepare())
@@ -347,6 +350,16 @@ void vtkPVHapticScene::SetEngaged(bool engaged)
       state != vtkHapticDevice::Ready;
     self.Message = self.Wanted ? "" : self.Scene->GetErrorMessage();
   }
+}
+
+/// Whether the device must not move before a surface that is built for the first time is there: a
+/// stroke follows it, a path might go into it.
+bool vtkPVHapticScene::HasToWait()
+{
+  Internals& self = *this->Internal;
+  const bool isLed = !self.Choice.Strokes() && !self.Choice.WorldPath();
+  return !isLed && self.Scene->IsBuilding() &&
+    this->GetNumberOfTouchableSurfaces() < static_cast<int>(self.Surfaces.size());
 }
 
 void vtkPVHapticScene::ReleaseBecause(const std::string& reason)
@@ -432,7 +445,7 @@ void vtkPVHapticScene::EngageWhenReady()
     self.Wanted = false;
     self.Message = self.Scene->GetDevice()->GetErrorMessage();
   }
-  else if (!self.Scene->IsBuilding() &&
+  else if (!this->HasToWait() &&
     (state == vtkHapticDevice::Ready || state == vtkHapticDevice::Closed))
   {
     self.Wanted = false;

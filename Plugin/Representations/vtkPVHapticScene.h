@@ -84,7 +84,8 @@ public:
   /**
    * Starts and stops the servo. Where it cannot start GetMessage() tells why, and GetEngaged()
    * stays false. The workspace is fitted if it never was. A device that takes its time to open
-   * (the Falcon) is engaged by Update() as soon as it is ready.
+   * (the Falcon) is engaged by Update() as soon as it is ready; so is one that follows a path as
+   * soon as the surfaces are built.
    */
   void SetEngaged(bool engaged);
   bool GetEngaged();
@@ -208,6 +209,7 @@ private:
   bool Prepare();
   bool ChooseDevice();
   bool ChoosePath();
+  bool HasToWait();
   void EngageWhenReady();
   void SyncSurfaces();
   void OnViewDeleted();

@@ -76,7 +76,7 @@ def trace_arrays(hand):
 
 def write_path(hand, file):
     """Keeps where the hand went, to be gone again by Device=file."""
-    _write(hand.trace(), file)
+    write(hand.trace(), file)
 
 
 def write_line(file, start, end):
@@ -86,10 +86,11 @@ def write_line(file, start, end):
     points.InsertNextPoint(end)
     line = vtkPolyData()
     line.SetPoints(points)
-    _write(line, file)
+    write(line, file)
 
 
-def _write(path, file):
+def write(path, file):
+    """Writes polydata into a .vtp."""
     writer = vtkXMLPolyDataWriter()
     writer.SetDataModeToBinary()
     writer.SetInputData(path)

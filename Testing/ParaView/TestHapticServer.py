@@ -4,64 +4,18 @@ Further arguments, before the usual two: the number of ranks, remote or local fo
 are drawn, and what is touched: names of sources() below, with commas between.
 """
 
-import os
 import re
-import socket
-import subprocess
 import sys
-import tempfile
-import time
 import unittest
 
-PVPYTHON = sys.argv[-1]
 TOUCHED, DRAWN, RANKS = sys.argv.pop(-3).split(","), sys.argv.pop(-3), int(sys.argv.pop(-3))
 
 import numpy as np
-from HapticSceneTesting import PLUGIN, haptics, look_at, main, trace_arrays, write_path
+from HapticSceneTesting import haptics, look_at, main, trace_arrays, write_path
+from HapticServerTesting import Server
 from paraview import simple
 
 TICKS = 3000
-
-
-def clean_environment():
-    """Of this process, without what makes mpiexec think that it was started by MPI."""
-    started_by_mpi = ("PMIX_", "PMI_", "OMPI_COMM", "OMPI_UNIVERSE", "OMPI_MCA_ess", "OMPI_MCA_orte")
-    kept = {name: value for name, value in os.environ.items()
-            if not name.startswith(started_by_mpi)}
-    kept["OMPI_MCA_mpi_yield_when_idle"] = "1"  # more ranks than cores
-    kept["OMPI_ALLOW_RUN_AS_ROOT"] = kept["OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"] = "1"  # in a container
-    return kept
-
-
-class Server:
-    """A pvserver under mpiexec; simple.Connect() connects to it."""
-
-    def __init__(self, ranks):
-        with socket.socket() as probe:
-            probe.bind(("127.0.0.1", 0))
-            self.port = probe.getsockname()[1]
-        self.log = tempfile.TemporaryFile("w+")
-        self.process = subprocess.Popen(
-            ["mpiexec", "--oversubscribe", "-n", str(ranks),
-             os.path.join(os.path.dirname(PVPYTHON), "pvserver"),
-             f"--server-port={self.port}", "--force-offscreen-rendering"],
-            stdout=self.log, stderr=subprocess.STDOUT, env=clean_environment())
-        end = time.monotonic() + 120.0
-        while "Accepting connection" not in self.output():
-            if self.process.poll() is not None or time.monotonic() > end:
-                raise RuntimeError(f"pvserver did not start: {self.output()}")
-            time.sleep(0.1)
-        simple.Connect("127.0.0.1", self.port)
-        haptics.load_plugin(PLUGIN)
-
-    def output(self):
-        self.log.seek(0)
-        return self.log.read()
-
-    def stop(self):
-        self.process.kill()
-        self.process.wait()
-        self.log.close()
 
 
 def sources():
