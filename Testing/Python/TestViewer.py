@@ -14,8 +14,10 @@ from vtkmodules.vtkIOImage import vtkPNGReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
 
 from vtkhaptics import surfaces
+from vtkhaptics import viewer as viewer_module
+from vtkhaptics.arguments import parse
 from vtkhaptics.progress import ProgressBar
-from vtkhaptics.viewer import main
+from vtkhaptics.viewer import Viewer, main
 
 
 def viewer(*arguments):
@@ -56,11 +58,11 @@ def read(path):
     return reader.GetOutput()
 
 
-def ball(x, folder):
+def ball(x, folder, resolution=40):
     source = vtkSphereSource()
     source.SetCenter(x, 0.0, 0.0)
-    source.SetThetaResolution(40)
-    source.SetPhiResolution(40)
+    source.SetThetaResolution(resolution)
+    source.SetPhiResolution(resolution)
     source.Update()
     surface = source.GetOutput()
     height = vtkDoubleArray()
@@ -132,6 +134,34 @@ def test_simulated(folder):
     assert done.returncode == 0, done.stderr
     touched = vtk_to_numpy(read(trace).GetPointData().GetArray("ActiveConstraints")) > 0
     assert touched.mean() > 0.3, touched.mean()
+
+
+def test_the_window_is_there_while_surfaces_are_built(folder):
+    viewer_module.PATIENCE, viewer_module.BUILD_FRAME = 0.0, 0.001
+
+    def opened():
+        shown = Viewer(parse([ball(3.0, folder, 200), "--size", "200", "200", "--scalars", "none"]))
+        with redirect_stdout(io.StringIO()):
+            shown.add_surfaces()
+        shown.open()
+        return shown
+
+    def words(shown):
+        actors = shown.renderer.GetActors2D()
+        return [a.GetInput() for a in actors if a.IsA("vtkTextActor")]
+
+    shown, seen = opened(), []
+    shown.window.AddObserver("EndEvent", lambda *_: seen.extend(words(shown)))
+    assert shown.build()
+    assert any("preparing" in text for text in seen), seen
+    assert not words(shown), "it goes away"
+    assert shown.scene.IsSurfaceTouchable(shown.scene.GetSurfaceId(0))
+
+    shown = opened()
+    shown.scene.AddObserver(
+        shown.scene.BuildEvent, lambda *_: shown.interactor.InvokeEvent("ExitEvent"))
+    assert not shown.build(), "who closes the window does not wait"
+    assert not shown.scene.IsSurfaceTouchable(shown.scene.GetSurfaceId(0))
 
 
 def test_bad_input(folder):
@@ -214,6 +244,8 @@ def test_as_a_process(folder):
 
 with tempfile.TemporaryDirectory() as scratch:
     for test in (
+        # First: VTK's X11 interactor crashes in ProcessEvents() after another one has lost its window.
+        test_the_window_is_there_while_surfaces_are_built,
         test_touches_with_the_mouse_and_replays_it,
         test_colours_by_the_first_values_where_none_are_active,
         test_simulated,

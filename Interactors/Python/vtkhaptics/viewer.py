@@ -3,19 +3,22 @@
 See ``python3 -m vtkhaptics --help``.
 """
 
-import argparse
+import contextlib
 import os
 import sys
+import time
 
 import numpy as np
-import vtkmodules.vtkInteractionStyle  # noqa: F401  (registers the interactors)
 import vtkmodules.vtkRenderingFreeType  # noqa: F401  (registers the text renderer)
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkLookupTable, vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkPolyData
-from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
-from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
-from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow, vtkRenderWindowInteractor
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+from vtkmodules.vtkInteractionStyle import vtkInteractorStyleTrackballCamera
+from vtkmodules.vtkRenderingCore import (
+    vtkRenderer,
+    vtkRenderWindow,
+    vtkRenderWindowInteractor,
+    vtkTextActor,
+)
 
 import vtkhaptics
 from . import (
@@ -24,129 +27,23 @@ from . import (
     vtkMouseHapticDevice,
     vtkSimulatedHapticDevice,
 )
+from .arguments import parse
+from .coloring import TEXT, color_by, other_arrays, scalar_bar
 from .display import DisplayError, ensure_display
 from .picture import BACKGROUND, OutputError, add_lights, fill_view, save_window, surface_actor, write_atomically
-from .progress import ProgressBar
+from .progress import PATIENCE, ProgressBar
+from .recording import RecordingError, read_recording
 from .stroke import StrokeError, in_device_frame, plan_stroke
-from .surfaces import (
-    FORMATS,
-    SurfaceError,
-    default_array,
-    read_surface,
-    unit_note,
-    value_arrays,
-)
+from .surfaces import SurfaceError, read_surface, unit_note, value_arrays
 
 EXIT_DONE, EXIT_FAILED, EXIT_INPUT, EXIT_DISPLAY = 0, 1, 2, 3
-SIDES = {"auto": "SetSideToAutomatic", "front": "SetSideToFront", "both": "SetSideToBoth"}
+SET_SIDE = {"auto": "SetSideToAutomatic", "front": "SetSideToFront", "both": "SetSideToBoth"}
 COLORS = ((0.74, 0.80, 0.86), (0.86, 0.78, 0.66), (0.70, 0.82, 0.72), (0.84, 0.72, 0.78))
-TEXT = (0.18, 0.21, 0.27)
-# Dark blue over green to yellow: even steps for the eye, readable without colours.
-VALUE_COLORS = (
-    (0.27, 0.00, 0.33),
-    (0.25, 0.27, 0.53),
-    (0.16, 0.47, 0.56),
-    (0.13, 0.66, 0.52),
-    (0.48, 0.82, 0.32),
-    (0.99, 0.91, 0.14),
-)
-
-EPILOG = """examples:
-  python3 -m vtkhaptics gearbox.stl
-      touch it with the mouse: the wheel presses, space strokes, ? lists the keys
-  python3 -m vtkhaptics pial.vtp --scalars sulc --device simulated
-      a simulated hand strokes it; values are coloured
-  python3 -m vtkhaptics skull.vtp vessel.stl --stiffness 800 --side both
-      two surfaces at once, harder, touched from inside too; x carries the one that is touched
-  python3 -m vtkhaptics t13.stl --offscreen --screenshot t13.png --trace t13.vtp
-      no window: a picture and what was felt, one point a tick
-  python3 -m vtkhaptics t13.stl --device t13.vtp
-      feel a recorded path again
-
-without a window (--offscreen) time is virtual, so that every run gives the same picture; nobody
-moves the mouse there, so it strokes across the middle of the view by itself.
-
-files name no length unit: sizes are shown in the file's own, and the hand's space is fitted to them.
-
-exit status:
-  0 done; 1 the device or the servo failed, or a file could not be written; 2 wrong arguments or a
-  surface that cannot be read; 3 no display to draw with
-"""
+BUILD_FRAME = 0.05  # [s] between two looks at how far the surfaces are
 
 
 class ViewerError(Exception):
     """What went wrong and what to do, for people."""
-
-
-def parse(arguments):
-    """The options of a command line; exits with 2 where they are wrong."""
-    parser = argparse.ArgumentParser(
-        prog="python3 -m vtkhaptics",
-        description="Touch surfaces from files, at 1000 forces a second.",
-        epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
-    parser.add_argument(
-        "surfaces", nargs="+", metavar="SURFACE", help="what to touch: " + ", ".join(FORMATS)
-    )
-    parser.add_argument(
-        "--device",
-        default="mouse",
-        metavar="NAME",
-        help="mouse (default), simulated, falcon, or a recording: a .vtp as --trace writes it",
-    )
-    parser.add_argument(
-        "--stiffness",
-        type=float,
-        default=500.0,
-        metavar="K",
-        help="of the surfaces in the hand [N/m], above 0 (default 500)",
-    )
-    parser.add_argument(
-        "--side",
-        choices=SIDES,
-        default="auto",
-        help="which side can be touched: auto (default; the front of closed surfaces, both of open "
-        "ones), front or both",
-    )
-    parser.add_argument(
-        "--scalars",
-        metavar="ARRAY",
-        help="point or cell array to colour by (default: the active one, or else the first that "
-        "holds values; 'none' for no colours)",
-    )
-    parser.add_argument(
-        "--screenshot", metavar="FILE", help="write a PNG of the end, or when the window is closed"
-    )
-    parser.add_argument("--trace", metavar="FILE", help="write what was felt as .vtp")
-    parser.add_argument("--offscreen", action="store_true", help="open no window")
-    parser.add_argument(
-        "--seconds",
-        type=float,
-        default=8.0,
-        metavar="S",
-        help="how long a simulated hand strokes, or an off-screen run takes, 2 to 600 (default 8)",
-    )
-    parser.add_argument(
-        "--size",
-        type=int,
-        nargs=2,
-        default=(1200, 800),
-        metavar=("W", "H"),
-        help="of the picture [pixel], 100 to 8000 (default 1200 800)",
-    )
-    options = parser.parse_args(arguments)
-    if not 0.0 < options.stiffness < 1e6:
-        parser.error(f"--stiffness {options.stiffness:g} is out of range; give 0 to 1e6 N/m")
-    if not 2.0 <= options.seconds <= 600.0:
-        parser.error(f"--seconds {options.seconds:g} is out of range; give 2 to 600")
-    if not all(100 <= pixels <= 8000 for pixels in options.size):
-        parser.error(f"--size {options.size[0]} {options.size[1]} is out of range; give 100 to 8000")
-    for name, extension in (("screenshot", ".png"), ("trace", ".vtp")):
-        path = getattr(options, name)
-        if path and not path.lower().endswith(extension):
-            parser.error(f"--{name} {path}: its name must end in {extension}")
-    return options
 
 
 class Viewer:
@@ -164,86 +61,41 @@ class Viewer:
         self.surfaces = []
 
     def add_surfaces(self):
-        """Reads, builds and shows the files. Raises SurfaceError."""
+        """Reads the files and shows them. Raises SurfaceError."""
         for number, path in enumerate(self.options.surfaces):
-            name = os.path.basename(path)
-            with ProgressBar(f"reading {name}") as bar:
+            with ProgressBar(f"reading {os.path.basename(path)}") as bar:
                 surface = read_surface(path, bar.show)
             actor = surface_actor(surface, COLORS[number % len(COLORS)])
             self._color(actor, surface, path)
             self.renderer.AddActor(actor)
-            id_ = self.scene.AddSurface(surface)
-            prepared = self.scene.GetSurfaceFilter(id_)
-            getattr(prepared, SIDES[self.options.side])()
-            with ProgressBar(f"building {name}") as bar:
-                prepared.AddObserver(
-                    "ProgressEvent", lambda caller, _event, bar=bar: bar.show(caller.GetProgress())
-                )
-                failures = []
-                watch = self.scene.AddObserver("ErrorEvent", lambda *_: failures.append(True))
-                self.scene.Update()
-                self.scene.RemoveObserver(watch)
-            if not self.scene.IsSurfaceTouchable(id_):
-                raise SurfaceError(f"{path}: {self.scene.GetErrorMessage()}")
-            print(unit_note(path, surface), flush=True)
             self.surfaces.append(surface)
+            prepared = self.scene.GetSurfaceFilter(self.scene.AddSurface(surface))
+            getattr(prepared, SET_SIDE[self.options.side])()
+            print(unit_note(path, surface), flush=True)
 
     def _color(self, actor, surface, path):
         """Colours an actor by the array that the options ask for."""
         wanted = self.options.scalars
         if wanted == "none":
             return
-        points, cells = surface.GetPointData(), surface.GetCellData()
-        name = wanted or default_array(surface)
-        array = points.GetArray(name) or cells.GetArray(name) if name else None
-        if not array:
+        name, table = color_by(actor, surface, wanted)
+        if not name:
             if wanted and not any(
-                s.GetPointData().HasArray(wanted) or s.GetCellData().HasArray(wanted)
-                for s in self.surfaces
+                known.GetPointData().HasArray(wanted) or known.GetCellData().HasArray(wanted)
+                for known in self.surfaces
             ):
                 known = ", ".join(value_arrays(surface)) or "none"
                 raise SurfaceError(
                     f"{path}: has no array '{wanted}' to colour by. It has: {known}."
                 )
             return
-        mapper = actor.GetMapper()
-        mapper.ScalarVisibilityOn()
-        if points.HasArray(name):
-            mapper.SetScalarModeToUsePointFieldData()
-        else:
-            mapper.SetScalarModeToUseCellFieldData()
-        mapper.SelectColorArray(name)
-        if array.GetDataTypeAsString() == "unsigned char" and array.GetNumberOfComponents() > 2:
+        if not table:
             return  # colours already
-        table = _value_colors(*array.GetRange(0))
-        mapper.SetLookupTable(table)
-        mapper.UseLookupTableScalarRangeOn()
-        if not wanted or len(self.surfaces) == 0:
-            self._add_scalar_bar(table, name)
-        others = [n for n in value_arrays(surface) if n != name]
+        if not wanted or not self.surfaces:
+            self.renderer.AddActor2D(scalar_bar(table, name, self.options.size))
+        others = other_arrays(surface, name)
         if others and not wanted:
             print(f"coloured by {name}; --scalars for {', '.join(others)}", flush=True)
-
-    def _add_scalar_bar(self, table, name):
-        bar = vtkScalarBarActor()
-        bar.SetLookupTable(table)
-        bar.SetTitle(name)
-        bar.SetNumberOfLabels(4)
-        bar.SetLabelFormat("%.3g")
-        bar.UnconstrainedFontSizeOn()
-        bar.SetBarRatio(0.2)
-        bar.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
-        width, height = (min(1.0, p / size) for p, size in zip((100, 280), self.options.size))
-        bar.SetWidth(width)
-        bar.SetHeight(min(height, 0.6))
-        bar.SetPosition(1.0 - width, 0.05)
-        for text in (bar.GetTitleTextProperty(), bar.GetLabelTextProperty()):
-            text.SetColor(*TEXT)
-            text.SetFontSize(15)
-            text.ItalicOff()
-            text.BoldOff()
-            text.ShadowOff()
-        self.renderer.AddActor2D(bar)
 
     def open(self):
         """Makes window, camera and interaction."""
@@ -270,11 +122,66 @@ class Viewer:
         self.renderer.AddViewProp(self.scene.GetOverlay())
         self.interactor = vtkRenderWindowInteractor()
         self.interactor.SetRenderWindow(self.window)
+        self.interactor.SetInteractorStyle(vtkInteractorStyleTrackballCamera())
+        self.interactor.Initialize()
+        self.window.Render()
+
+    def build(self):
+        """Makes the surfaces touchable, on a thread beside; the camera can be moved meanwhile.
+
+        False where the window was closed before they were. Raises SurfaceError.
+        """
+        closed, told = [], []
+        observers = [
+            (self.interactor, self.interactor.AddObserver("ExitEvent", lambda *_: closed.append(1))),
+            (self.scene, self.scene.AddObserver(
+                self.scene.SurfaceErrorEvent, lambda *_: told.append(self.scene.GetErrorMessage()))),
+        ]
+        self.scene.BackgroundBuildingOn()
+        self.scene.Update()
+        with ProgressBar("building") as bar, self._build_label() as label:
+            while self.scene.IsBuilding() and not closed:
+                bar.show(self.scene.GetBuildProgress())
+                label(self.scene.GetBuildProgress())
+                if not self.options.offscreen:
+                    self.interactor.ProcessEvents()
+                time.sleep(BUILD_FRAME)
+                self.scene.Update()
+        for caller, observer in observers:
+            caller.RemoveObserver(observer)
+        if closed:
+            self.scene.CancelBuild()
+            return False
+        for number, path in enumerate(self.options.surfaces):
+            id_ = self.scene.GetSurfaceId(number)
+            if not self.scene.IsSurfaceTouchable(id_):
+                mine = [text for text in told if text.startswith(f"Surface {id_}:")]
+                raise SurfaceError(f"{path}: {(mine or told or ['cannot be touched.'])[0]}")
         self.style = vtkInteractorStyleHaptic()
         self.style.SetScene(self.scene)
         self.interactor.SetInteractorStyle(self.style)
-        self.interactor.Initialize()
-        self.window.Render()
+        return True
+
+    @contextlib.contextmanager
+    def _build_label(self):
+        """Tells in the window how far the surfaces are, where that takes long enough to be read."""
+        text = vtkTextActor()
+        text.GetTextProperty().SetColor(*TEXT)
+        text.GetTextProperty().SetFontSize(18)
+        text.SetPosition(12, 12)
+        began = time.monotonic()
+
+        def show(share):
+            words = f"preparing the surfaces: {100 * share:.0f} %"
+            if time.monotonic() - began > PATIENCE and words != text.GetInput():
+                text.SetInput(words)
+                self.renderer.AddActor2D(text)
+                self.window.Render()
+
+        try:
+            yield show
+        finally:
+            self.renderer.RemoveActor2D(text)
 
     def connect(self):
         """Gives the scene its device. Raises ViewerError, StrokeError."""
@@ -299,7 +206,7 @@ class Viewer:
             if not self.scene.FitWorkspace(camera):
                 raise ViewerError(self.scene.GetErrorMessage())
         else:
-            self._follow(_read_recording(name))
+            self._follow(read_recording(name))
 
     def _follow(self, path):
         if not self.scene.FitWorkspace(path.GetBounds(), self.renderer.GetActiveCamera()):
@@ -362,62 +269,14 @@ class Viewer:
             print(f"trace:   {self.options.trace}")
 
 
-def _value_colors(low, high):
-    table = vtkLookupTable()
-    table.SetNumberOfTableValues(256)
-    table.SetTableRange(low, high if high > low else low + 1.0)
-    table.SetNanColor(0.6, 0.6, 0.6, 1.0)
-    table.Build()
-    for i in range(256):
-        x = i / 255.0 * (len(VALUE_COLORS) - 1)
-        k = min(int(x), len(VALUE_COLORS) - 2)
-        below, above = VALUE_COLORS[k], VALUE_COLORS[k + 1]
-        table.SetTableValue(i, *(a + (x - k) * (b - a) for a, b in zip(below, above)), 1.0)
-    return table
-
-
-def _read_recording(path):
-    """The path of the hand in a trace, world frame, with its array Time [s]. Raises ViewerError."""
-    what = f"{path}: neither a device (mouse, simulated, falcon) nor a recording"
-    if not os.path.isfile(path):
-        raise ViewerError(f"{what}: there is no such file.")
-    if not path.lower().endswith(".vtp"):
-        raise ViewerError(f"{what}: it does not end in .vtp. Give a file that --trace wrote.")
-    reader = vtkXMLPolyDataReader()
-    reader.SetFileName(path)
-    messages = []
-    reader.AddObserver("ErrorEvent", lambda *_: messages.append(True))
-    reader.Update()
-    trace = reader.GetOutput()
-    hip, time = (trace.GetPointData().GetArray(name) for name in ("HapticInterfacePoint", "Time"))
-    if messages or not hip or not time or hip.GetNumberOfTuples() < 2:
-        raise ViewerError(
-            f"{path}: holds no recorded hand. Give a file that --trace wrote, with at least two "
-            "points and the point arrays HapticInterfacePoint and Time."
-        )
-    return _hand_path(trace)
-
-
-def _hand_path(trace):
-    path = vtkPolyData()
-    points = vtkPoints()
-    points.SetDataTypeToDouble()
-    points.SetData(trace.GetPointData().GetArray("HapticInterfacePoint"))
-    path.SetPoints(points)
-    time = vtk_to_numpy(trace.GetPointData().GetArray("Time"))
-    array = numpy_to_vtk(time - time[0], deep=True)
-    array.SetName("Time")
-    path.GetPointData().AddArray(array)
-    return path
-
-
 def run(options):
     """Shows and touches the surfaces as the options say."""
     viewer = Viewer(options)
     viewer.add_surfaces()
     viewer.open()
-    viewer.connect()
-    viewer.run()
+    if viewer.build():
+        viewer.connect()
+        viewer.run()
 
 
 def main(arguments=None):
@@ -440,7 +299,7 @@ def main(arguments=None):
     except SurfaceError as error:
         print(f"vtkhaptics: {error}", file=sys.stderr)
         return EXIT_INPUT
-    except (OutputError, StrokeError, ViewerError) as error:
+    except (OutputError, RecordingError, StrokeError, ViewerError) as error:
         print(f"vtkhaptics: {error}", file=sys.stderr)
         return EXIT_FAILED
     return EXIT_DONE

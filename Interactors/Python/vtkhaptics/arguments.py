@@ -1,0 +1,103 @@
+"""The command line of ``python3 -m vtkhaptics``."""
+
+import argparse
+
+from .surfaces import FORMATS
+
+SIDES = ("auto", "front", "both")
+
+EPILOG = """examples:
+  python3 -m vtkhaptics gearbox.stl
+      touch it with the mouse: the wheel presses, space strokes, ? lists the keys
+  python3 -m vtkhaptics pial.vtp --scalars sulc --device simulated
+      a simulated hand strokes it; values are coloured
+  python3 -m vtkhaptics skull.vtp vessel.stl --stiffness 800 --side both
+      two surfaces at once, harder, touched from inside too; x carries the one that is touched
+  python3 -m vtkhaptics t13.stl --offscreen --screenshot t13.png --trace t13.vtp
+      no window: a picture and what was felt, one point a tick
+  python3 -m vtkhaptics t13.stl --device t13.vtp
+      feel a recorded path again
+
+without a window (--offscreen) time is virtual, so that every run gives the same picture; nobody
+moves the mouse there, so it strokes across the middle of the view by itself.
+
+a large surface is prepared while the window shows it already, with how far it is at the lower left;
+closing the window gives it up.
+
+files name no length unit: sizes are shown in the file's own, and the hand's space is fitted to them.
+
+exit status:
+  0 done; 1 the device or the servo failed, or a file could not be written; 2 wrong arguments or a
+  surface that cannot be read; 3 no display to draw with
+"""
+
+
+def parse(arguments):
+    """The options of a command line; exits with 2 where they are wrong."""
+    parser = argparse.ArgumentParser(
+        prog="python3 -m vtkhaptics",
+        description="Touch surfaces from files, at 1000 forces a second.",
+        epilog=EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument(
+        "surfaces", nargs="+", metavar="SURFACE", help="what to touch: " + ", ".join(FORMATS)
+    )
+    parser.add_argument(
+        "--device",
+        default="mouse",
+        metavar="NAME",
+        help="mouse (default), simulated, falcon, or a recording: a .vtp as --trace writes it",
+    )
+    parser.add_argument(
+        "--stiffness",
+        type=float,
+        default=500.0,
+        metavar="K",
+        help="of the surfaces in the hand [N/m], above 0 (default 500)",
+    )
+    parser.add_argument(
+        "--side",
+        choices=SIDES,
+        default="auto",
+        help="which side can be touched: auto (default; the front of closed surfaces, both of open "
+        "ones), front or both",
+    )
+    parser.add_argument(
+        "--scalars",
+        metavar="ARRAY",
+        help="point or cell array to colour by (default: the active one, or else the first that "
+        "holds values; 'none' for no colours)",
+    )
+    parser.add_argument(
+        "--screenshot", metavar="FILE", help="write a PNG of the end, or when the window is closed"
+    )
+    parser.add_argument("--trace", metavar="FILE", help="write what was felt as .vtp")
+    parser.add_argument("--offscreen", action="store_true", help="open no window")
+    parser.add_argument(
+        "--seconds",
+        type=float,
+        default=8.0,
+        metavar="S",
+        help="how long a simulated hand strokes, or an off-screen run takes, 2 to 600 (default 8)",
+    )
+    parser.add_argument(
+        "--size",
+        type=int,
+        nargs=2,
+        default=(1200, 800),
+        metavar=("W", "H"),
+        help="of the picture [pixel], 100 to 8000 (default 1200 800)",
+    )
+    options = parser.parse_args(arguments)
+    if not 0.0 < options.stiffness < 1e6:
+        parser.error(f"--stiffness {options.stiffness:g} is out of range; give 0 to 1e6 N/m")
+    if not 2.0 <= options.seconds <= 600.0:
+        parser.error(f"--seconds {options.seconds:g} is out of range; give 2 to 600")
+    if not all(100 <= pixels <= 8000 for pixels in options.size):
+        parser.error(f"--size {options.size[0]} {options.size[1]} is out of range; give 100 to 8000")
+    for name, extension in (("screenshot", ".png"), ("trace", ".vtp")):
+        path = getattr(options, name)
+        if path and not path.lower().endswith(extension):
+            parser.error(f"--{name} {path}: its name must end in {extension}")
+    return options
