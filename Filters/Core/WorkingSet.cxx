@@ -341,6 +341,10 @@ bool WorkingSet::IsClear(const Vector& target)
   {
     return true;
   }
+  if (this->Covered == Region::Ball && !this->IsInBall(to))
+  {
+    return false; // short of the hit, but rounded to beyond it, where other triangles are
+  }
   if (!this->IsPositionMeasured)
   {
     this->MeasurePosition();

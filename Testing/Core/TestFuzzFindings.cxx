@@ -77,3 +77,31 @@ TEST(FuzzFindings, AHugeCrackWidthCountsAsTheSizeOfTheSurface)
     ExpectNoCrossing(surface, { { 0.2, 0.1, 3.0 }, { 0.2, 0.1, -3.0 }, { 0.2, 0.1, 3.0 } });
   }
 }
+
+// Beside a huge surface the numbers of the scene are coarser than a small one is large: a way that
+// ends short of the small one must not be rounded to beyond it.
+TEST(FuzzFindings, ASmallSurfaceBesideAHugeOneIsNotPassedByRounding)
+{
+  const auto huge = OneTriangle({ 0, 0, 1e34 }, { 8e34, 0, 1e34 }, { 0, -8e34, 2e34 }, Side::Front);
+  for (const Side side : { Side::Front, Side::Both })
+  {
+    TriangleMesh mesh;
+    mesh.Points = { { 0, 0.75, -1.5 }, { 2, -1.5, 1.75 }, { 0, 2, -0.25 }, { 1.75, -1.5, -1.5 } };
+    mesh.Triangles = { { 3, 1, 2 }, { 3, 2, 1 }, { 2, 0, 1 }, { 0, 2, 1 } };
+    const auto small = MakeSurface(mesh, side, EngineKind::BruteForce);
+    const ExactQueries exact(small);
+    const Vec3 offset = small->Origin() - huge->Origin();
+    GodObject god({ huge, small });
+    god.Update({ -0.43, -2.3e69, -0.77 });
+    for (int tick = 0; tick < 10; ++tick)
+    {
+      god.Update({ 1.0, -2.0, -0.75 });
+      int corners = 0;
+      const Vec3* const way = god.Way(corners);
+      for (int i = 0; i + 1 < corners; ++i)
+      {
+        ASSERT_FALSE(exact.Crosses(way[i] - offset, way[i + 1] - offset)) << "piece " << i;
+      }
+    }
+  }
+}
