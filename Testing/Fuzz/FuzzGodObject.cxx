@@ -3,6 +3,7 @@
 #include "ForceModel.h"
 #include "FuzzInput.h"
 #include "GodObject.h"
+#include "VectorMath.h"
 
 #include <algorithm>
 #include <cmath>
@@ -76,9 +77,11 @@ void Print(const TriangleMesh& mesh, const SurfaceOptions& options)
   {
     Print("  point", point);
   }
-  for (const auto& [a, b, c] : mesh.Triangles)
+  for (std::size_t i = 0; i < mesh.Triangles.size(); ++i)
   {
-    std::fprintf(stderr, "  triangle { %d, %d, %d }\n", a, b, c);
+    const auto& [a, b, c] = mesh.Triangles[i];
+    const Side side = i < mesh.Sides.size() ? mesh.Sides[i] : options.TouchedSide;
+    std::fprintf(stderr, "  triangle { %d, %d, %d }, side %d\n", a, b, c, static_cast<int>(side));
   }
 }
 
@@ -92,6 +95,15 @@ std::shared_ptr<const TriangleSurface> MakeSurface(FuzzInput& input)
     options.CrackWidth = input.Coordinate();
   }
   TriangleMesh mesh = MakeMesh(input);
+  if (input.Choice(4) == 3)
+  {
+    // Now and then one too few, which is an error.
+    const std::size_t missing = input.Choice(8) == 7 ? 1 : 0;
+    while (mesh.Sides.size() + missing < mesh.Triangles.size())
+    {
+      mesh.Sides.push_back(static_cast<Side>(input.Choice(3)));
+    }
+  }
   if (IsPrinting())
   {
     Print(mesh, options);
@@ -127,6 +139,7 @@ public:
       const auto& surface = touched.Surface;
       this->Exact.emplace_back(surface);
       this->Offsets.push_back(Difference(surface->Origin(), surfaces.front().Surface->Origin()));
+      this->Radii.push_back(surface->Radius());
       this->Reach = std::max(this->Reach, Length(this->Offsets.back()) + surface->Radius());
     }
   }
@@ -161,6 +174,13 @@ public:
   }
 
 private:
+  /// As each surface has it: what is all but 0 there is 0.
+  Vec3 Local(const Vec3& x, std::size_t k) const
+  {
+    return ToVec3(WithoutNegligible(
+      ToVector(Difference(x, this->Offsets[k])), NegligibleShare * this->Radii[k]));
+  }
+
   void CheckWay(const GodObject& god, const Vec3& goal)
   {
     int corners = 0;
@@ -174,8 +194,8 @@ private:
     {
       for (std::size_t k = 0; k < this->Exact.size(); ++k)
       {
-        const Vec3 from = Difference(way[i], this->Offsets[k]);
-        const Vec3 to = Difference(way[i + 1], this->Offsets[k]);
+        const Vec3 from = this->Local(way[i], k);
+        const Vec3 to = this->Local(way[i + 1], k);
         Require(!this->Exact[k].Crosses(from, to), "no piece of the way crosses a triangle");
       }
     }
@@ -189,6 +209,7 @@ private:
 
   std::vector<testing::ExactQueries> Exact;
   std::vector<Vec3> Offsets;
+  std::vector<double> Radii;
   double Reach = 0.0;
   Vec3 Before{};
   bool HasBefore = false;

@@ -6,10 +6,12 @@
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCommand.h"
+#include "vtkDataObject.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
 #include "vtkIdTypeArray.h"
+#include "vtkInformation.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -108,6 +110,18 @@ vtkSmartPointer<vtkPolyData> MakePolyData(FuzzInput& input)
       attributes->SetScalars(values);
     }
   }
+  if (more & 16)
+  {
+    vtkNew<vtkFloatArray> sides;
+    sides->SetName("Sides");
+    const bool fits = input.Choice(4) != 3;
+    for (vtkIdType i = fits ? data->GetNumberOfCells() : input.Choice(32); i > 0; --i)
+    {
+      const int side = input.Choice(64);
+      sides->InsertNextValue(side < 60 ? static_cast<float>(side % 3) : std::nanf(""));
+    }
+    data->GetCellData()->AddArray(sides);
+  }
   return data;
 }
 
@@ -115,6 +129,13 @@ void SetProperties(FuzzInput& input, vtkGodObjectFilter* filter)
 {
   filter->SetSide(input.Choice(3));
   filter->SetEngine(input.Choice(4));
+  if (input.Choice(4) == 3)
+  {
+    filter->SetInputArrayToProcess(vtkGodObjectFilter::SIDE_ARRAY, 0, 0,
+      input.Choice(8) == 7 ? vtkDataObject::FIELD_ASSOCIATION_POINTS
+                           : vtkDataObject::FIELD_ASSOCIATION_CELLS,
+      "Sides");
+  }
   const int more = input.Byte();
   if (more & 1)
   {
@@ -132,7 +153,11 @@ void CheckOutput(vtkPolyData* input, vtkGodObjectFilter* filter, int errors)
 {
   vtkPolyData* const output = filter->GetOutput();
   const auto surface = filter->GetSurface();
-  Require((errors == 0) == (surface != nullptr), "a surface or an error, never both or none");
+  // Bad sides are an error, and the surface has the filter's own.
+  const bool hasSides = filter->GetInputArrayInformation(vtkGodObjectFilter::SIDE_ARRAY)
+                          ->Has(vtkDataObject::FIELD_NAME());
+  Require(surface || errors > 0, "a surface or an error");
+  Require(!surface || errors == 0 || hasSides, "not both");
   if (!surface)
   {
     Require(output->GetNumberOfPoints() == 0 && output->GetNumberOfCells() == 0,
