@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 
 namespace haptics
 {
@@ -128,11 +127,15 @@ std::vector<std::uint8_t> ReadFirmwareFile(const std::string& path)
     throw FalconFault("The firmware file " + path + " cannot be opened: " + std::strerror(errno) +
       ". Set FirmwareFile to the image that came with the device.");
   }
-  std::vector<std::uint8_t> bytes{ std::istreambuf_iterator<char>(file), {} };
+  // No more is read than tells that it is too large: files such as /dev/zero have no end.
+  std::vector<std::uint8_t> bytes(LargestFirmware + 1);
+  file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(file.gcount()));
   if (bytes.empty() || bytes.size() > LargestFirmware)
   {
     throw FalconFault("The firmware file " + path + " is no firmware image: it holds " +
-      std::to_string(bytes.size()) + " bytes, an image 1 to " + std::to_string(LargestFirmware) +
+      (bytes.empty() ? "0 bytes" : "more than " + std::to_string(LargestFirmware) + " bytes") +
+      ", an image 1 to " + std::to_string(LargestFirmware) +
       ". Set FirmwareFile to the image that came with the device.");
   }
   return bytes;

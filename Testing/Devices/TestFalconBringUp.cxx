@@ -220,6 +220,11 @@ TEST_F(FalconBringUp, NamesAFileThatCannotBeReadOrIsNone)
   ASSERT_TRUE(this->Run(
     [&] { return Contains(this->Device->GetErrorMessage(), "is no firmware image: it holds 0"); }))
     << this->Device->GetErrorMessage();
+  const FirmwareFile large((1 << 20) + 1); // in place of the empty one
+  this->Device->Open();
+  ASSERT_TRUE(this->Run(
+    [&] { return Contains(this->Device->GetErrorMessage(), "it holds more than 1048576 bytes"); }))
+    << this->Device->GetErrorMessage();
 }
 
 TEST_F(FalconBringUp, MayBeClosedInTheMiddleOfAnUploadAndOpenedAgain)
