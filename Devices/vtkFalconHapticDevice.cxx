@@ -74,20 +74,43 @@ bool vtkFalconHapticDevice::Open()
   }
   catch (const std::system_error& failure)
   {
-    this->Fail(Faulted, std::string("The system gave no thread for the Falcon: ") + failure.what());
+    const std::string problem =
+      std::string("The system gave no thread for the Falcon: ") + failure.what();
+    const bool changed = this->ChangeStatusMessage(problem);
+    this->Fail(Faulted, problem);
+    this->TellStatusMessage(changed);
     return false;
   }
   this->Arrivals = 0;
   this->FirmwareProgress = 0.0;
+  const bool changed = this->ChangeStatusMessage("");
   this->SetState(Opening);
+  this->TellStatusMessage(changed);
   return false;
 }
 
 void vtkFalconHapticDevice::Close()
 {
-  this->BecomeClosed();
+  const bool changed = this->ChangeStatusMessage("");
   this->LetGo();
-  this->StatusMessage.clear();
+  this->BecomeClosed();
+  this->TellStatusMessage(changed);
+}
+
+// Changed before the state and told after it: who hears of either can read both.
+bool vtkFalconHapticDevice::ChangeStatusMessage(const std::string& message)
+{
+  const bool changed = this->StatusMessage != message;
+  this->StatusMessage = message;
+  return changed;
+}
+
+void vtkFalconHapticDevice::TellStatusMessage(bool changed)
+{
+  if (changed)
+  {
+    this->InvokeEvent(StatusMessageChangedEvent);
+  }
 }
 
 void vtkFalconHapticDevice::LetGo()
@@ -112,9 +135,10 @@ void vtkFalconHapticDevice::Update()
   const std::string problem = this->IsOpen() ? this->Falcon->GetProblem() : "";
   if (!problem.empty())
   {
-    this->Fail(Faulted, problem);
-    this->StatusMessage = this->GetErrorMessage();
+    const bool changed = this->ChangeStatusMessage(problem);
     this->LetGo();
+    this->Fail(Faulted, problem);
+    this->TellStatusMessage(changed);
   }
 }
 
@@ -126,8 +150,7 @@ void vtkFalconHapticDevice::Follow(const haptics::FalconStatus& status)
   }
   this->Link = status.Link;
   this->RealTime = status.RealTime;
-  const bool changed = this->StatusMessage != status.Text;
-  this->StatusMessage = status.Text;
+  const bool changed = this->ChangeStatusMessage(status.Text);
 
   const int state = StateOf(status.Phase);
   if (state == Faulted)
@@ -151,10 +174,7 @@ void vtkFalconHapticDevice::Follow(const haptics::FalconStatus& status)
   {
     this->SetState(state);
   }
-  if (changed)
-  {
-    this->InvokeEvent(StatusMessageChangedEvent);
-  }
+  this->TellStatusMessage(changed);
   this->TellProgress(status);
 }
 

@@ -48,7 +48,8 @@ public:
   vtkTypeMacro(vtkFalconHapticDevice, vtkHapticDevice);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// All from Update(). ProgressEvent carries the share of the firmware sent, a double* 0 to 1.
+  /// All from Update(), the first from Open() and Close() too. ProgressEvent carries the share of
+  /// the firmware sent, a double* 0 to 1.
   enum FalconEvents
   {
     StatusMessageChangedEvent = vtkCommand::UserEvent + 4110, ///< no call data
@@ -132,6 +133,8 @@ private:
   void Follow(const haptics::FalconStatus& status);
   void TellProgress(const haptics::FalconStatus& status);
   void LetGo();
+  bool ChangeStatusMessage(const std::string& message);
+  void TellStatusMessage(bool changed);
 
   int DeviceIndex = 0;
   std::string FirmwareFile;

@@ -14,6 +14,8 @@ using FalconFaults = FalconBench;
 using Force = std::array<double, 3>;
 
 const Force Push{ 0.3, -0.2, 1.0 };
+// Cranks so far apart, 178 degrees from 0 and 0, that they would pull the rods off.
+const std::array<std::int16_t, 3> ImpossibleCounts{ 3914, -961, -961 };
 
 bool Contains(const std::string& text, const std::string& part)
 {
@@ -342,6 +344,81 @@ TEST_F(FalconFaults, IsOpenedByItselfAfterItWasJammed)
   this->Bus.Unplug(1);
   this->Bus.Plug(1, FalconModel());
   EXPECT_TRUE(this->RunUntil(vtkHapticDevice::Ready)) << this->Device->GetStatusMessage();
+}
+
+TEST_F(FalconFaults, TellsOfAPoseThatItsArmsCannotTakeAndOpensAgain)
+{
+  this->Bus.Plug(1, FalconModel());
+  ASSERT_TRUE(this->BecomesReady());
+  ASSERT_TRUE(this->Run([&] { return this->GotForce(); }, Push));
+  const auto turn = [&](const std::array<std::int16_t, 3>& encoders)
+  { this->Bus.With(1, [&](FalconModel& model) { model.Encoders = encoders; }); };
+  turn(ImpossibleCounts);
+  ASSERT_TRUE(this->RunUntil(vtkHapticDevice::Faulted, Push));
+  EXPECT_TRUE(Contains(this->Device->GetErrorMessage(), "a pose that its arms cannot take"));
+  ASSERT_TRUE(this->Run([&] { return !this->Bus.IsClaimed(1); }));
+  EXPECT_TRUE(this->EndsWithoutForce());
+  EXPECT_EQ(this->Events.Errors, 1);
+  turn(FalconModel().Encoders);
+  EXPECT_TRUE(this->BecomesReady());
+}
+
+TEST_F(FalconFaults, TellsThatTheMachineIsTooBusyWhereNoNewPositionComes)
+{
+  this->Bus.Plug(1, FalconModel());
+  ASSERT_TRUE(this->BecomesReady());
+  const auto channel = this->Device->GetChannel();
+  haptics::DeviceSample sample;
+  double time = 1e9; // the servo's, which runs a thousand times faster than the exchange's
+  int reads = 0;
+  while (channel->Read(time, sample) && ++reads < 1000)
+  {
+    channel->Write(Push);
+    time += 0.16;
+  }
+  this->Device->Update();
+  EXPECT_EQ(this->Device->GetState(), vtkHapticDevice::Faulted);
+  EXPECT_TRUE(Contains(this->Device->GetErrorMessage(), "the machine is too busy"));
+  ASSERT_TRUE(this->Run([&] { return !this->Bus.IsClaimed(1); }));
+  EXPECT_TRUE(this->EndsWithoutForce());
+}
+
+TEST_F(FalconFaults, HasTheMessageOfAStateWhenItTellsOfTheState)
+{
+  std::vector<std::string> messages; // at each change of state
+  int changes = 0;
+  vtkNew<vtkCallbackCommand> noter;
+  noter->SetClientData(&messages);
+  noter->SetCallback(
+    [](vtkObject* caller, unsigned long, void* client, void*)
+    {
+      static_cast<std::vector<std::string>*>(client)->emplace_back(
+        static_cast<vtkFalconHapticDevice*>(caller)->GetStatusMessage());
+    });
+  this->Device->AddObserver(vtkHapticDevice::StateChangedEvent, noter);
+  vtkNew<vtkCallbackCommand> counter;
+  counter->SetClientData(&changes);
+  counter->SetCallback(
+    [](vtkObject*, unsigned long, void* client, void*) { ++*static_cast<int*>(client); });
+  this->Device->AddObserver(vtkFalconHapticDevice::StatusMessageChangedEvent, counter);
+
+  this->Bus.Plug(1, FalconModel());
+  ASSERT_TRUE(this->BecomesReady());
+  EXPECT_EQ(messages.back(), "The Falcon is ready.");
+  int before = changes;
+  this->Bus.With(1, [](FalconModel& model) { model.Encoders = ImpossibleCounts; });
+  ASSERT_TRUE(this->RunUntil(vtkHapticDevice::Faulted));
+  EXPECT_TRUE(Contains(messages.back(), "a pose")) << messages.back();
+  EXPECT_EQ(changes, before + 1);
+  before = changes;
+  this->Device->Open();
+  EXPECT_EQ(messages.back(), "") << "the fault is over";
+  EXPECT_EQ(changes, before + 1);
+  ASSERT_TRUE(this->Run([&] { return *this->Device->GetStatusMessage() != '\0'; }));
+  before = changes;
+  this->Device->Close();
+  EXPECT_EQ(messages.back(), "");
+  EXPECT_EQ(changes, before + 1);
 }
 
 TEST_F(FalconFaults, RefusesTorqueScalesOutOfRange)
