@@ -39,7 +39,8 @@ public:
   ///@}
 
   /// Reads the whole recording: 72 bytes of memory a tick. False, with the cause in
-  /// GetErrorMessage(), where it cannot be read, is none, or has no whole tick.
+  /// GetErrorMessage(), where haptics::ReadRecording() takes none: it cannot be read, is none, has
+  /// no whole tick, or its time does not go on.
   bool Open() override;
   void Close() override;
 

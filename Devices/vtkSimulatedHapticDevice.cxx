@@ -16,6 +16,7 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -55,6 +56,12 @@ protected:
         this->Body->Place(time, sample.Position);
         this->IsPlaced = true;
       }
+      if (this->MustLetGo.load(std::memory_order_relaxed) &&
+        this->MustLetGo.exchange(false, std::memory_order_acq_rel))
+      {
+        // When it was halted is not known in the servo's time: since the last tick.
+        this->Body->Ask({});
+      }
       this->Body->Advance(time, sample.Position);
       sample.Position = this->Body->GetMeasuredPosition();
     }
@@ -69,12 +76,14 @@ protected:
       this->Body->Ask(force);
     }
   }
+  void HaltDevice() noexcept override { this->MustLetGo.store(true, std::memory_order_release); }
 
 private:
   const bool Led;
   const haptics::SimulatedPath Path;
   const std::unique_ptr<haptics::SimulatedBody> Body; // null: the hand is as stiff as one likes
   bool IsPlaced = false;
+  std::atomic<bool> MustLetGo{ false };
   haptics::LatestValue<haptics::DeviceSample> Hand;
 };
 
@@ -121,6 +130,13 @@ bool ReadPolyData(vtkPolyData* data, std::vector<haptics::DevicePoint>& points,
       " components. It must have one, the time in seconds.";
     return false;
   }
+  if (time && time->GetNumberOfTuples() != data->GetNumberOfPoints())
+  {
+    error = "The path's point array Time has " + std::to_string(time->GetNumberOfTuples()) +
+      " values for " + std::to_string(data->GetNumberOfPoints()) +
+      " points. It must have one for each.";
+    return false;
+  }
   for (vtkIdType i = 0; i < ids->GetNumberOfIds(); ++i)
   {
     haptics::DevicePoint point;
@@ -158,7 +174,7 @@ bool vtkSimulatedHapticDevice::Open()
   this->SetState(Opening);
   haptics::SimulatedPath path;
   std::string error;
-  if (this->Motion != Manual && !this->MakePath(path, error))
+  if (!this->CheckNumbers(error) || (this->Motion != Manual && !this->MakePath(path, error)))
   {
     this->Fail(Closed, error);
     return false;
@@ -221,6 +237,26 @@ void vtkSimulatedHapticDevice::SetPreset(int preset)
 void vtkSimulatedHapticDevice::Close()
 {
   this->BecomeClosed();
+}
+
+// Setters clamp, but what is no number is within no bounds.
+bool vtkSimulatedHapticDevice::CheckNumbers(std::string& error)
+{
+  const std::pair<const char*, double> numbers[] = { { "MaximumForce", this->MaximumForce },
+    { "MaximumStiffness", this->MaximumStiffness }, { "Damping", this->Damping },
+    { "Mass", this->Mass }, { "CoulombFriction", this->CoulombFriction },
+    { "EncoderResolution", this->EncoderResolution }, { "Delay", this->Delay },
+    { "Jitter", this->Jitter }, { "HandStiffness", this->HandStiffness },
+    { "HandDamping", this->HandDamping } };
+  for (const auto& [name, value] : numbers)
+  {
+    if (std::isnan(value))
+    {
+      error = std::string("The simulated device's ") + name + " is no number. Set it, then open.";
+      return false;
+    }
+  }
+  return true;
 }
 
 bool vtkSimulatedHapticDevice::MakePath(haptics::SimulatedPath& path, std::string& error)

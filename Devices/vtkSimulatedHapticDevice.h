@@ -23,8 +23,8 @@
  * at the path's mean speed and starts over.
  *
  * Motion, path, stroke and body are read by Open(); a change later takes effect at the next Open().
- * SetPosition() and SetButtons() act at once. A path that cannot be followed makes Open() fail,
- * with the cause in GetErrorMessage(), and the device stays Closed.
+ * SetPosition() and SetButtons() act at once. A path that cannot be followed and a setting that is
+ * no number make Open() fail, with the cause in GetErrorMessage(), and the device stays Closed.
  *
  * All methods are for the GUI thread; none waits for the servo.
  */
@@ -233,6 +233,7 @@ private:
   vtkSimulatedHapticDevice(const vtkSimulatedHapticDevice&) = delete;
   void operator=(const vtkSimulatedHapticDevice&) = delete;
 
+  bool CheckNumbers(std::string& error);
   bool MakePath(haptics::SimulatedPath& path, std::string& error);
 
   class SimulatedChannel;

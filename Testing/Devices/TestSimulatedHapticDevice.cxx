@@ -293,6 +293,10 @@ TEST(SimulatedHapticDevice, StaysClosedWithAPathItCannotFollow)
   ExpectFailsToOpen(device, "Time 1");
 
   path->GetPointData()->RemoveArray("Time");
+  AddTimes(path, { 1.0 });
+  ExpectFailsToOpen(device, "1 values for 2 points");
+
+  path->GetPointData()->RemoveArray("Time");
   vtkNew<vtkCellArray> lines;
   const vtkIdType ids[2] = { 0, 1 };
   lines->InsertNextCell(2, ids);
@@ -303,6 +307,40 @@ TEST(SimulatedHapticDevice, StaysClosedWithAPathItCannotFollow)
   path->SetLines(nullptr);
   EXPECT_TRUE(device->Open()) << device->GetErrorMessage();
   EXPECT_STREQ(device->GetErrorMessage(), "") << "a success forgets the old error";
+}
+
+TEST(SimulatedHapticDevice, StaysClosedWithASettingThatIsNoNumber)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  vtkNew<vtkSimulatedHapticDevice> device;
+  device->SetMass(nan);
+  ExpectFailsToOpen(device, "Mass is no number");
+  device->SetMass(0.1);
+  device->SetMaximumForce(nan);
+  ExpectFailsToOpen(device, "MaximumForce is no number");
+  device->SetMaximumForce(3.0);
+  EXPECT_TRUE(device->Open()) << device->GetErrorMessage();
+}
+
+TEST(SimulatedHapticDevice, LetsGoOfItsBodyWhenAWatchdogHaltsIt)
+{
+  vtkNew<vtkSimulatedHapticDevice> device;
+  device->BodyOn();
+  device->SetHandStiffness(0.0);
+  device->SetHandDamping(0.0);
+  ASSERT_TRUE(device->Open());
+  const auto channel = device->GetChannel();
+  haptics::DeviceSample sample;
+  ASSERT_TRUE(channel->Read(0.0, sample));
+  channel->Write({ 0.0, 0.0, 1.0 });
+  ASSERT_TRUE(channel->Read(0.001, sample));
+  EXPECT_GT(sample.Position[2], 0.0) << "1 N moves it";
+  channel->Write({ 0.0, 0.0, 1.0 });
+  channel->Halt(); // the servo slept for half a second, and resumes before its next tick
+  channel->Resume();
+  ASSERT_TRUE(channel->Read(0.5, sample));
+  // 1 N over 1 ms gives 45 g 22 mm/s at most, which 0.35 N s/m stop within 2.9 mm.
+  EXPECT_LT(sample.Position[2], 0.0029);
 }
 
 TEST(SimulatedHapticDevice, StaysClosedWithASplineThroughOnePoint)
