@@ -82,6 +82,36 @@ vtkHapticDevice* vtkHapticServo::GetDevice()
   return this->Device;
 }
 
+void vtkHapticServo::SetRate(double rate)
+{
+  if (std::isnan(rate))
+  {
+    vtkErrorMacro("The rate is no number; it stays " << this->Rate << " Hz.");
+    return;
+  }
+  rate = std::clamp(rate, 50.0, 10000.0);
+  if (this->Rate != rate)
+  {
+    this->Rate = rate;
+    this->Modified();
+  }
+}
+
+void vtkHapticServo::SetStallLimit(double limit)
+{
+  if (std::isnan(limit))
+  {
+    vtkErrorMacro("The stall limit is no number; it stays " << this->StallLimit << " s.");
+    return;
+  }
+  limit = std::clamp(limit, 0.05, 60.0);
+  if (this->StallLimit != limit)
+  {
+    this->StallLimit = limit;
+    this->Modified();
+  }
+}
+
 void vtkHapticServo::SetStiffness(double stiffness)
 {
   if (!std::isfinite(stiffness) || stiffness < 0.0)

@@ -86,8 +86,9 @@ public:
   ///@}
 
   ///@{
-  /// Ticks a second [Hz]. Default 1000, 50 to 10,000. Read by Start() and by the first Step().
-  vtkSetClampMacro(Rate, double, 50.0, 10000.0);
+  /// Ticks a second [Hz]. Default 1000, clamped to 50 to 10,000; what is no number is an error and
+  /// changes nothing. Read by Start() and by the first Step().
+  void SetRate(double rate);
   vtkGetMacro(Rate, double);
   ///@}
   ///@{
@@ -97,9 +98,9 @@ public:
   vtkBooleanMacro(RealTimePriority, bool);
   ///@}
   ///@{
-  /// The longest gap between two ticks [s] that is no fault. Default 0.5, 0.05 to 60; read by
-  /// Start().
-  vtkSetClampMacro(StallLimit, double, 0.05, 60.0);
+  /// The longest gap between two ticks [s] that is no fault. Default 0.5, clamped to 0.05 to 60;
+  /// what is no number is an error and changes nothing. Read by Start().
+  void SetStallLimit(double limit);
   vtkGetMacro(StallLimit, double);
   ///@}
 

@@ -86,6 +86,7 @@ bool vtkHapticServo::Start()
   if (!this->Internal->Loop.Start(timing, error))
   {
     this->Internal->Cycle.End(haptics::ServoState::Stopped);
+    this->Update(); // others may have the device
     this->Fail(error);
     return false;
   }

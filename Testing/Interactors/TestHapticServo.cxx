@@ -245,10 +245,26 @@ TEST_F(HapticServo, RefusesSettingsOutOfRangeAndKeepsTheOldOnes)
   mirror->SetElement(0, 0, -1.0);
   EXPECT_FALSE(this->Servo->SetWorkspaceTransform(mirror));
   EXPECT_EQ(this->Servo->PublishGodObject(nullptr), 0u);
-  EXPECT_EQ(errors.Count, 7);
+  this->Servo->SetRate(nan);
+  this->Servo->SetStallLimit(nan);
+  EXPECT_EQ(errors.Count, 9);
   EXPECT_EQ(this->Servo->GetStiffness(), 500.0);
+  EXPECT_EQ(this->Servo->GetRate(), 1000.0);
+  EXPECT_EQ(this->Servo->GetStallLimit(), 60.0);
   ASSERT_EQ(this->Servo->Step(1000), 1000);
   EXPECT_NEAR(this->DeviceForce(), 1.0, 2e-3);
+}
+
+TEST_F(HapticServo, ClampsItsRateAndItsStallLimit)
+{
+  this->Servo->SetRate(0.0);
+  EXPECT_EQ(this->Servo->GetRate(), 50.0);
+  this->Servo->SetRate(1e9);
+  EXPECT_EQ(this->Servo->GetRate(), 10000.0);
+  this->Servo->SetStallLimit(0.0);
+  EXPECT_EQ(this->Servo->GetStallLimit(), 0.05);
+  this->Servo->SetStallLimit(1e9);
+  EXPECT_EQ(this->Servo->GetStallLimit(), 60.0);
 }
 
 TEST_F(HapticServo, MovesTheHandThroughTheWorkspaceTransform)
