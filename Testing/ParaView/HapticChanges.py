@@ -10,7 +10,7 @@ import contextlib
 import os
 
 import numpy as np
-from HapticSceneTesting import haptics, trace_arrays, write
+from HapticSceneTesting import haptics, trace_arrays, write_points
 from paraview import simple
 from vtkmodules.util.misc import calldata_type
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
@@ -48,16 +48,7 @@ class Change:
     def write_path(self, file):
         """The hand's path as a file that a Device takes."""
         seconds = 0.001 * np.arange(FRAME * len(self.levels) + 1)
-        points = vtkPoints()
-        points.SetDataTypeToDouble()
-        for second in seconds:
-            points.InsertNextPoint(self.path(second))
-        path = vtkPolyData()
-        path.SetPoints(points)
-        time = numpy_to_vtk(seconds, deep=True)
-        time.SetName("Time")
-        path.GetPointData().AddArray(time)
-        write(path, file)
+        write_points(file, [self.path(second) for second in seconds], seconds)
 
 
 class Felt:

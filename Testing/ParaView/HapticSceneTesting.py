@@ -5,7 +5,7 @@ import unittest
 
 import numpy as np
 from paraview import simple
-from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
@@ -81,12 +81,22 @@ def write_path(hand, file):
 
 def write_line(file, start, end):
     """The path of a hand that goes straight from one place in the world to another, and stays."""
+    write_points(file, [start, end])
+
+
+def write_points(file, places, seconds=None):
+    """The path of a hand through places in the world, at times if they are given."""
     points = vtkPoints()
-    points.InsertNextPoint(start)
-    points.InsertNextPoint(end)
-    line = vtkPolyData()
-    line.SetPoints(points)
-    write(line, file)
+    points.SetDataTypeToDouble()
+    for place in places:
+        points.InsertNextPoint(place)
+    path = vtkPolyData()
+    path.SetPoints(points)
+    if seconds is not None:
+        time = numpy_to_vtk(np.asarray(seconds, dtype=float), deep=True)
+        time.SetName("Time")
+        path.GetPointData().AddArray(time)
+    write(path, file)
 
 
 def write(path, file):
