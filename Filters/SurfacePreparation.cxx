@@ -30,17 +30,61 @@ vtkSmartPointer<vtkIdTypeArray> MakeIdArray(const char* name, const std::vector<
   return array;
 }
 
+template <class T>
+void Write(const std::vector<Vec3>& from, vtkPoints* points)
+{
+  auto* to = static_cast<T*>(points->GetVoidPointer(0));
+  for (const Vec3& p : from)
+  {
+    to = std::transform(p.begin(), p.end(), to, [](double x) { return static_cast<T>(x); });
+  }
+}
+
 vtkSmartPointer<vtkPoints> MakePoints(const std::vector<Vec3>& from, int dataType)
 {
   auto points = vtkSmartPointer<vtkPoints>::New();
   points->SetDataType(dataType == VTK_FLOAT ? VTK_FLOAT : VTK_DOUBLE);
   points->SetNumberOfPoints(static_cast<vtkIdType>(from.size()));
-  for (std::size_t i = 0; i < from.size(); ++i)
-  {
-    points->SetPoint(static_cast<vtkIdType>(i), from[i].data());
-  }
+  dataType == VTK_FLOAT ? Write<float>(from, points) : Write<double>(from, points);
   return points;
 }
+
+/// Reads a point, in a third of the time that it takes through the array's virtual methods where it
+/// is stored as usual.
+class PointReader
+{
+public:
+  explicit PointReader(vtkPoints* points)
+    : Points(points)
+  {
+    vtkDataArray* data = points->GetData();
+    if (data->HasStandardMemoryLayout())
+    {
+      void* const memory = data->GetVoidPointer(0);
+      this->Floats = data->GetDataType() == VTK_FLOAT ? static_cast<float*>(memory) : nullptr;
+      this->Doubles = data->GetDataType() == VTK_DOUBLE ? static_cast<double*>(memory) : nullptr;
+    }
+  }
+  Vec3 At(vtkIdType i) const
+  {
+    if (const float* p = this->Floats)
+    {
+      return { p[3 * i], p[3 * i + 1], p[3 * i + 2] };
+    }
+    if (const double* p = this->Doubles)
+    {
+      return { p[3 * i], p[3 * i + 1], p[3 * i + 2] };
+    }
+    Vec3 p;
+    this->Points->GetPoint(i, p.data());
+    return p;
+  }
+
+private:
+  vtkPoints* Points;
+  const float* Floats = nullptr;
+  const double* Doubles = nullptr;
+};
 
 vtkSmartPointer<vtkCellArray> MakeCells(const TriangleMesh& mesh)
 {
@@ -242,6 +286,7 @@ bool SurfacePreparation::MovePoints(std::vector<Vec3>& points) const
 {
   const std::vector<std::int32_t>& kept = *this->Earlier->Kept;
   const vtkIdType* original = this->Earlier->PointIds->GetPointer(0);
+  const PointReader reader(this->Input->GetPoints());
   points.resize(static_cast<std::size_t>(this->Earlier->PointIds->GetNumberOfValues()));
   for (std::size_t i = 0; i < kept.size(); ++i)
   {
@@ -250,19 +295,21 @@ bool SurfacePreparation::MovePoints(std::vector<Vec3>& points) const
       continue;
     }
     const auto point = static_cast<vtkIdType>(i);
-    Vec3 p;
-    this->Input->GetPoint(point, p.data());
+    const Vec3 p = reader.At(point);
+    // Not less is also how NaN answers.
+    if (!(std::abs(p[0]) < LargestCoordinate && std::abs(p[1]) < LargestCoordinate &&
+          std::abs(p[2]) < LargestCoordinate))
+    {
+      return false;
+    }
     Vec3& q = points[static_cast<std::size_t>(kept[i])];
     if (original[kept[i]] == point)
     {
       q = p;
     }
-    const double apart = std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
-    // Not less is also how NaN answers.
-    if (!(std::abs(p[0]) < LargestCoordinate && std::abs(p[1]) < LargestCoordinate &&
-          std::abs(p[2]) < LargestCoordinate && apart <= this->Earlier->MergedWithin))
+    else if (!(std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]) <= this->Earlier->MergedWithin))
     {
-      return false;
+      return false; // what was one has parted
     }
   }
   return true;

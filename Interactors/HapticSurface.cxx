@@ -25,7 +25,7 @@ namespace
 {
 constexpr double LargestSpeed = 5.0; ///< of a surface that pushes a hand, in the hand [m/s]
 
-/// How long a change takes: while one comes with each update, or with every other one, the time
+/// How long a motion takes: while one comes with each update, or with every other one, the time
 /// from one to the next. A surface whose next update comes later than LongestMotion has rested
 /// before it.
 double DurationSince(double last, const PullSettings& settings)
@@ -137,7 +137,10 @@ void HapticSurface::Follow(const PullSettings& settings, std::string& error)
   this->WasUnseen = !this->Shown;
   this->IsElsewhere = false;
   this->Shown = !this->Source || (this->Source->GetVisibility() && this->Source->GetPickable());
-  if (this->Build && this->Build->IsDone())
+  // One that goes on from a snapshot has to come after it.
+  const bool isDone = this->Build && this->Build->IsDone();
+  this->IsPostponed = isDone && this->Build->Deforms() && settings.IsLive && !settings.IsTaken;
+  if (isDone && !this->IsPostponed)
   {
     this->TakeBuild(settings, error);
   }
@@ -172,16 +175,20 @@ void HapticSurface::Follow(const PullSettings& settings, std::string& error)
     this->Moving->JumpTo(this->Placed); // what moved unseen must not push the hand now
   }
   const Version version = this->Current();
+  if (!(version == this->LastSeen))
+  {
+    this->LastSeen = version;
+    this->HasRested = settings.Now - this->SeenAt > LongestMotion;
+    this->SeenAt = settings.Now;
+    this->SeenInterval = settings.Interval;
+  }
   const bool isNew =
     !this->Tried || !(version == this->LastTried) || (hasMoved && this->WasRefused);
   // One that comes too soon for the servo waits; another may come before it is its turn.
   // But where no time passes there is nothing to wait for.
   const bool mayWait = settings.IsLive && !settings.IsTaken && this->InForce &&
     (settings.Interval > 0.0 || this->IsWaiting);
-  if (std::exchange(this->IsWaiting, !this->Build && isNew && mayWait))
-  {
-    this->LastChanged += settings.Interval; // or each that waits would make the next one wait
-  }
+  this->IsWaiting = !this->Build && isNew && mayWait;
   if (!this->Build && isNew && !mayWait)
   {
     this->Tried = true;
@@ -343,10 +350,13 @@ void HapticSurface::StartBuild(
     settings.IsTaken && !this->WasUnseen)
   {
     preparation->FollowOn(this->Base);
-    this->Build->DeformFrom(this->InForce, this->Deformer,
-      DurationSince(this->LastChanged, settings), LargestSpeed * settings.Scale);
+    // As long as the source has taken, however long it had to wait.
+    const double since = this->SeenAt - this->LastChanged; // negative where the servo began anew
+    const double duration =
+      std::clamp(this->HasRested || since < 0.0 ? this->SeenInterval : since, 0.0, LongestMotion);
+    this->Build->DeformFrom(this->InForce, this->Deformer, duration, LargestSpeed * settings.Scale);
   }
-  this->LastChanged = settings.Now;
+  this->BuildSeenAt = this->SeenAt;
   if (settings.Worker)
   {
     if (this->Build->Prepares())
@@ -394,6 +404,7 @@ void HapticSurface::TakeBuild(const PullSettings& settings, std::string& error)
   this->Base = done->Preparation();
   this->Deformer = done->Deformer();
   this->Baked = done->Matrix();
+  this->LastChanged = this->BuildSeenAt;
   this->Jumps += done->Jump() > 0.0 ? 1 : 0;
   this->TellJump("A point of it", done->Jump(), settings, this->HasToldLeap);
   if (isOtherGeometry)
@@ -434,6 +445,7 @@ void HapticSurface::CancelBuild()
   {
     this->Build->Cancel();
     this->Build.reset();
+    this->IsPostponed = false;
     this->Deformer.reset(); // the build may go on with it for a while, to a shape nobody touches
   }
 }

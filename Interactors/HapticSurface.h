@@ -86,8 +86,8 @@ public:
   /// What changes meanwhile is built next, in its newest state.
   bool Pull(const PullSettings& settings, std::string& error);
 
-  /// The build beside the GUI thread; null while there is none.
-  const BackgroundTask* Building() const { return this->Build.get(); }
+  /// The build beside the GUI thread; null while there is none, or a done one waits for IsTaken.
+  const BackgroundTask* Building() const { return this->IsPostponed ? nullptr : this->Build.get(); }
   /// Gives up the build: what is in force stays until the geometry changes again.
   void CancelBuild();
 
@@ -101,7 +101,7 @@ public:
   /// A point of the frame that Pose() moves, in that of the actor's geometry.
   Vec3 PointInActor(const Vec3& point) const;
   /// Whether it has changed and waits for IsTaken.
-  bool IsWaitingForServo() const { return this->IsWaiting; }
+  bool IsWaitingForServo() const { return this->IsWaiting || this->IsPostponed; }
 
   /// Whether the last Pull() found it in another place.
   bool HasMoved() const { return this->IsElsewhere; }
@@ -166,6 +166,11 @@ private:
   bool Carried = false;
   bool Tried = false;
   Version LastTried;
+  Version LastSeen;
+  double SeenAt = 0.0;       ///< the servo's time [s]
+  double SeenInterval = 0.0; ///< PullSettings::Interval, then
+  double BuildSeenAt = 0.0;  ///< when what is being built was seen
+  bool HasRested = false;    ///< before it was seen
   Matrix4 LastMatrix = IdentityMatrix;
   std::string LastConnectError;
   std::string LastMatrixError;
@@ -178,8 +183,9 @@ private:
   std::shared_ptr<SurfacePreparation> Base;  ///< what InForce was made of
   Matrix4 Baked = IdentityMatrix;            ///< and by which matrix
   std::shared_ptr<SurfaceDeformer> Deformer; ///< what made InForce; null where it was built
-  double LastChanged = 0.0;                  ///< the geometry, the servo's time [s]
+  double LastChanged = 0.0;                  ///< when InForce was first seen, servo's time [s]
   bool IsWaiting = false;                    ///< with a changed one, for the servo
+  bool IsPostponed = false;                  ///< a build that is done, likewise
   bool WasUnseen = false;                    ///< before this Pull()
   std::uint64_t Jumps = 0;
   std::shared_ptr<SurfaceMotion> Moving;

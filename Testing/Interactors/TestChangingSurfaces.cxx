@@ -17,9 +17,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <string>
+#include <thread>
 
 namespace
 {
@@ -177,6 +179,33 @@ TEST(ChangingSurfaces, OneThatComesTooSoonWaitsAndThenTakesPart)
   hand.Scene->Step(100);
   EXPECT_NEAR(hand.GodObjectHeight(), 0.003, Clearance);
   EXPECT_EQ(hand.Builds(), 1) << "each has deformed";
+}
+
+// Built beside: each is there long before the servo has come to the one before.
+TEST(ChangingSurfaces, OneThatIsBuiltBesideTooSoonWaitsForTheOneBefore)
+{
+  Membrane hand;
+  hand.Scene->Step(33);
+  hand.Scene->BackgroundBuildingOn();
+  double largest = 0.0;
+  for (int step = 1; step <= 5; ++step)
+  {
+    hand.Producer->SetOutput(Lifted(hand.Flat, 0.0002 * step)); // 40 mm/s: 0.02 N a tick
+    for (int i = 0; i < 5; ++i)
+    {
+      largest = std::max(largest, hand.LargestStep(1));
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+  }
+  for (int i = 0; i < 200; ++i) // and what is left
+  {
+    const double before = hand.Scene->GetForce()[2];
+    hand.Scene->Step(1);
+    largest = std::max(largest, std::abs(hand.Scene->GetForce()[2] - before));
+  }
+  EXPECT_LE(largest, 0.05);
+  EXPECT_NEAR(hand.GodObjectHeight(), 0.001, Clearance);
+  EXPECT_EQ(hand.Builds(), 1);
 }
 
 TEST(ChangingSurfaces, OtherCellsAreAnotherSnapshot)
