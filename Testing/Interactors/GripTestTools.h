@@ -6,6 +6,7 @@
 #include "vtkActor.h"
 #include "vtkCubeSource.h"
 #include "vtkMath.h"
+#include "vtkPoints.h"
 #include "vtkPolyDataMapper.h"
 
 #include <array>
