@@ -313,13 +313,14 @@ public:
   /**
    * The grip: the hand carries a surface, that which is touched or one with the id given, touched
    * or not, by the point where the god-object is. Its actor, or the part of an assembly, goes where
-   * the god-object goes at each Update(): the device has no more than three degrees of freedom, so
-   * nothing turns. All else is felt as ever, and holds hand and part back: a point collides, not
-   * the part. What is carried is not felt, and free of all else the hand feels nothing.
+   * the god-object goes at each Update() or Step(): the device has no more than three degrees of
+   * freedom, so nothing turns. All else is felt as ever, and holds hand and part back: a point
+   * collides, not the part. What is carried is not felt, and free of all else the hand feels
+   * nothing.
    *
    * Let go, it is felt again from where it is, with the hand on the side where it was. The scene
    * lets go by itself where the surface is hidden or removed, the clutch is pressed, another is
-   * gripped or the servo stops. Both take effect at once.
+   * gripped or the servo stops. Gripping and letting go take effect at once.
    *
    * Of the actor its position is changed, in whatever frame its user matrix or its assembly puts
    * it; to undo a move set the position that it had at GripEvent.

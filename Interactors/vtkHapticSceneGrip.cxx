@@ -47,9 +47,7 @@ bool vtkHapticScene::GripSurface(int id)
   }
   if (!surface->Actor())
   {
-    this->Fail(name +
-      " was added as geometry: there is no actor that a hand could carry. Add it "
-      "as a vtkActor.");
+    this->Fail(name + NoActor);
     return false;
   }
   if (!surface->Touched())
@@ -126,8 +124,8 @@ void vtkHapticScene::ObeyGripButton()
   {
     this->GripSurface(this->TouchedSurface);
   }
-  else if (grip.Refused.insert(this->TouchedSurface)
-             .second) // told once: the button may be for more
+  // Told once: the button may be for more than this.
+  else if (grip.Refused.insert(this->TouchedSurface).second)
   {
     vtkWarningMacro("Surface " << this->TouchedSurface << NoActor);
   }
