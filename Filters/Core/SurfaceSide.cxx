@@ -135,6 +135,7 @@ double SurfaceSide::ChooseNearest(
 {
   double best = HUGE_VAL;
   double facing = -1.0;
+  Vector normals{ 0 };
   // The first round finds the distance, the second the facet that faces x most of those there.
   for (int round = 0; round < 2; ++round)
   {
@@ -159,10 +160,15 @@ double SurfaceSide::ChooseNearest(
         continue;
       }
       const double cosine = distance > 0.0 ? std::abs(glm::dot(facet.Normal, way)) / distance : 1.0;
-      if (distance <= best * (1.0 + Tie) && cosine > facing)
+      if (distance > best * (1.0 + Tie))
+      {
+        continue;
+      }
+      normals += facet.Normal;
+      if (cosine > facing)
       {
         facing = cosine;
-        nearest = { x + way, facet.Normal, id, false };
+        nearest = { x + way, facet.Normal, Vector(0), id, false };
         for (int k3 = 0; k3 < 3; ++k3)
         {
           const Vector& from = facet.Corner[k3];
@@ -175,6 +181,7 @@ double SurfaceSide::ChooseNearest(
       }
     }
   }
+  nearest.Normals = normals;
   return best;
 }
 }

@@ -26,6 +26,7 @@ struct SurfacePlace
 {
   Vector Point{ 0 };
   Vector Normal{ 0 };         ///< of the facet there that faces the asker most
+  Vector Normals{ 0 };        ///< the sum of those of all facets there: out of a notch's tip
   std::int32_t Triangle = -1; ///< of which it is
   bool IsOnRim = false;       ///< at the border of an open surface
 };

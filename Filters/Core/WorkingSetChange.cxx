@@ -71,9 +71,17 @@ bool WorkingSet::PlaceBack(const Enclosed& before, const Enclosed& now, WorkBudg
 {
   const Encloser kind = now.Front > before.Front ? Encloser::Front : Encloser::Both;
   SurfacePlace nearest;
-  return this->Sides(budget).FindNearest(this->Position, &kind, nearest) &&
-    (this->PlaceOff(nearest.Point, nearest.Normal, &before, budget) ||
-      this->PlaceOff(nearest.Point, -nearest.Normal, &before, budget));
+  if (!this->Sides(budget).FindNearest(this->Position, &kind, nearest))
+  {
+    return false;
+  }
+  // From the tip of a narrow notch the normal of one of its walls leads into the other.
+  const double length = glm::length(nearest.Normals);
+  const Vector between = length > LeastCosine ? nearest.Normals / length : nearest.Normal;
+  return this->PlaceOff(nearest.Point, nearest.Normal, &before, budget) ||
+    this->PlaceOff(nearest.Point, -nearest.Normal, &before, budget) ||
+    this->PlaceOff(nearest.Point, between, &before, budget) ||
+    this->PlaceOff(nearest.Point, -between, &before, budget);
 }
 
 /// Puts the god-object off the nearest point of the surface; where `enclosed` is given, on the side

@@ -291,6 +291,7 @@ def circle(height, seconds):
 # --- changes --------------------------------------------------------------------------------------
 
 SCRUBBED = [1, 2, 3, 4, 3, 2, 1, 0, 7, 2, 10, 9, 8, 0, 5, 5, 10]
+NOTCH = [float(value) for value in range(228, 203, -2)]
 OFFSETS = [0.1, 0.2, 0.3, 0.4, 0.5, 0.3, -0.1, -0.5, -0.4, -0.3, -0.2, -0.1]
 SMALL = [202.0, 204.0, 206.0, 208.0, 210.0, 207.0, 204.0, 201.0, 198.0, 200.0]
 LARGE = [230.0, 200.0, 215.0, 245.0, 260.0, 205.0, 200.0]
@@ -314,6 +315,11 @@ def changes():
             drive=scrub(SCRUBBED), levels=of_times([0, *SCRUBBED]), **source)
     made["dragged_ball"] = Change(
         drive=drag(OFFSETS), levels=[-10.0] + [offset - 10.0 for offset in OFFSETS], **series)
+    # Two lobes grow into one where the hand is between them.
+    made["dragged_notch"] = Change(
+        pipeline=bumpy_contour(230.0), drive=drag(NOTCH),
+        path=lambda seconds: [0.0, -3.956, max(0.241, 4.0 - 60.0 * seconds)],
+        field=wavelet_value, levels=[230.0] + NOTCH, tolerance=0.2)
     for name, values in (("small", SMALL), ("large", LARGE), ("empty", EMPTY)):
         made[f"dragged_{name}"] = Change(
             pipeline=bumpy_contour(200.0), drive=drag(values),

@@ -62,7 +62,7 @@ class TestHapticChanges(unittest.TestCase):
                 self.assertTrue(felt.touching[100:].all())
 
     def test_a_contour_is_dragged_in_small_steps(self):
-        for name in ("dragged_ball", "dragged_small"):
+        for name in ("dragged_ball", "dragged_small", "dragged_notch"):
             with self.subTest(name):
                 self.check(name)
 
