@@ -179,8 +179,7 @@ void vtkPVHapticScene::SyncSurfaces()
       representation->Configure(filter);
       filter->SetMergeToleranceIsAbsolute(true);
       vtkDataSet* data = surface.Actor->GetMapper()->GetInputAsDataSet();
-      filter->SetMergeTolerance(
-        self.InPieces ? SeamWidth(data, filter->GetMergeTolerance()) : 0.0);
+      filter->SetMergeTolerance(self.InPieces ? SeamWidth(data, filter->GetMergeTolerance()) : 0.0);
     }
   }
   for (int i = self.Scene->GetNumberOfSurfaces() - 1; i >= 0; --i)

@@ -6,9 +6,11 @@
 #include "pqApplicationCore.h"
 #include "pqCoreTestUtility.h"
 #include "pqDataRepresentation.h"
+#include "pqFiltersMenuReaction.h"
 #include "pqObjectBuilder.h"
 #include "pqPipelineSource.h"
 #include "pqServer.h"
+#include "pqServerManagerModel.h"
 #include "pqUndoStack.h"
 #include "pqView.h"
 #include "vtkHapticScene.h"
@@ -192,6 +194,22 @@ void HapticsGuiTest::undoTakesTheRepresentationBack()
   stack->redo();
   QCOMPARE(representationType(), HapticSurface);
   QVERIFY(!engaged()); // a device starts only when a user says so
+}
+
+void HapticsGuiTest::undoTakesTheFilterBack()
+{
+  makeWaveletContour();
+  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  const auto count = [model] { return model->findItems<pqPipelineSource*>().size(); };
+  const auto before = count();
+  pqUndoStack* stack = pqApplicationCore::instance()->getUndoStack();
+  pqPipelineSource* surface = pqFiltersMenuReaction::createFilter("filters", "GodObjectFilter");
+  QVERIFY(surface);
+  QCOMPARE(count(), before + 1);
+  stack->undo();
+  QCOMPARE(count(), before);
+  stack->redo();
+  QCOMPARE(count(), before + 1);
 }
 
 void HapticsGuiTest::aDeviceThatIsNotThereTellsSo()

@@ -22,6 +22,7 @@ private Q_SLOTS:
   void deletingTheTouchedSourceLeavesFreeSpace();
   void resettingTheSessionReleasesTheHand();
   void undoTakesTheRepresentationBack();
+  void undoTakesTheFilterBack();
   void aDeviceThatIsNotThereTellsSo();
 
   // HapticsGuiTestPanel.cxx: the panel, and what goes on beside
@@ -31,6 +32,7 @@ private Q_SLOTS:
   void panelAndProxyShowTheSameSettings();
   void landmarksBecomeASource();
   void aRecordingIsPlayedBack();
+  void aDraggedContourIsFollowed();
   void aLargeSurfaceIsBuiltBeside();
   void buildingCanBeCancelled();
   void makePictureForReadme();

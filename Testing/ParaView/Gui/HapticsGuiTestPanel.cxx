@@ -184,6 +184,29 @@ void HapticsGuiTest::aRecordingIsPlayedBack()
   QVERIFY(waitUntil(touching));
 }
 
+void HapticsGuiTest::aDraggedContourIsFollowed()
+{
+  pqPipelineSource* contour = makeWaveletContour();
+  vtkSMPropertyHelper value(contour->getProxy(), "ContourValues");
+  value.Set(0, 230.0); // closed, till below 200
+  apply(contour);
+  pressTouch();
+  QVERIFY(press());
+  // As the slider of the panel does while it is dragged: the value, and a picture.
+  for (double dragged = 228.0; dragged >= 204.0; dragged -= 2.0)
+  {
+    value.Set(0, dragged);
+    contour->getProxy()->UpdateVTKObjects();
+    pqActiveObjects::instance().activeView()->forceRender();
+    QTest::qWait(30);
+    QCOMPARE(QString(clientScene()->GetMessage()), QString());
+  }
+  QVERIFY(waitUntil([] { return !clientScene()->GetBuilding(); }));
+  QVERIFY2(touching(), "The contour grows over the hand, which stays outside.");
+  QVERIFY(engaged());
+  QCOMPARE(takeComplaint(), QString());
+}
+
 void HapticsGuiTest::aLargeSurfaceIsBuiltBeside()
 {
   makeLargeSphere();
