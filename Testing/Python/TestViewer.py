@@ -1,5 +1,6 @@
 """The viewer draws, records, replays and says what is wrong, each with its exit status."""
 
+import gzip
 import io
 import os
 import subprocess
@@ -7,9 +8,11 @@ import sys
 import tempfile
 from contextlib import redirect_stderr, redirect_stdout
 
-from vtkmodules.util.numpy_support import vtk_to_numpy
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkDoubleArray
 from vtkmodules.vtkFiltersSources import vtkLineSource, vtkSphereSource
+from vtkmodules.vtkIOGeometry import vtkSTLWriter
 from vtkmodules.vtkIOImage import vtkPNGReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
 
@@ -17,6 +20,7 @@ from vtkhaptics import surfaces
 from vtkhaptics import viewer as viewer_module
 from vtkhaptics.arguments import parse
 from vtkhaptics.progress import ProgressBar
+from vtkhaptics.recording import read_recording
 from vtkhaptics.viewer import Viewer, main
 
 
@@ -191,6 +195,66 @@ def test_bad_input(folder):
         assert "Traceback" not in failed.stderr, failed.stderr
 
 
+def test_stl_files_hold_as_many_triangles_as_they_say(folder):
+    path = os.path.join(folder, "ball.stl")
+    writer = vtkSTLWriter()
+    writer.SetInputData(read(ball(0.0, folder)))
+    writer.SetFileName(path)
+    writer.SetFileTypeToBinary()
+    assert writer.Write() == 1
+    with open(path, "rb") as file:
+        count, triangles = (whole := file.read())[80:84], whole[84:]
+    for header in (b"made by a test", b"solid ball"):
+        for told, rest, refused in (
+            (count, triangles, False),
+            (bytes(4), triangles, False),  # not known when the header was written
+            (count, triangles + b"end", False),
+            (b"\xff\xff\xff\x7f", triangles, True),  # VTK would end the process
+            (b"\x05\x00\x00\x00", triangles, True),
+            (count, triangles[:-60], True),
+        ):
+            with open(path, "wb") as file:
+                file.write(header.ljust(80, b"\0") + told + rest)
+            if refused:
+                failed = viewer(path, "--offscreen")
+                assert failed.returncode == 2 and path in failed.stderr, failed.stderr
+                assert "triangles, but its" in failed.stderr, failed.stderr
+            else:
+                assert surfaces.read_surface(path).GetNumberOfPolys() == 3040, (header, told)
+
+    with gzip.open(path + ".gz", "wb", compresslevel=1) as file:
+        file.write(whole)
+    failed = viewer(path + ".gz", "--offscreen")
+    assert failed.returncode == 2 and "gunzip it first" in failed.stderr, failed.stderr
+
+
+def test_vectors_that_are_not_finite_do_not_hide_a_surface(folder):
+    for value in (np.inf, np.nan):
+        surface = read(ball(0.0, folder))
+        vectors = np.zeros((surface.GetNumberOfPoints(), 3))
+        vectors[: 1 if value == np.inf else None] = value
+        for name in ("Velocity", "HapticInterfacePoint"):
+            array = numpy_to_vtk(vectors, deep=True)
+            array.SetName(name)
+            array.GetRange(-1)  # which VTK keeps, writes and cannot read again
+            surface.GetPointData().AddArray(array)
+        time = numpy_to_vtk(np.arange(float(len(vectors))), deep=True)
+        time.SetName("Time")
+        surface.GetPointData().AddArray(time)
+        path = write(surface, os.path.join(folder, "vectors.vtp"))
+        with open(path, encoding="ascii") as file:
+            text = file.read()
+        assert "L2_NORM_RANGE" in text, "or this tests nothing"
+        found = surfaces.read_surface(path).GetPointData().GetArray("Velocity")
+        assert np.array_equal(vtk_to_numpy(found), vectors, equal_nan=True)
+        assert read_recording(path).GetNumberOfPoints() == len(vectors)
+
+        with open(path, "w", encoding="ascii") as file:
+            file.write(text[: len(text) // 2])
+        failed = viewer(path, "--offscreen")
+        assert failed.returncode == 2 and "could not be read" in failed.stderr, failed.stderr
+
+
 def test_enormous_files_are_refused(folder):
     surface, factor = ball(0.0, folder), surfaces.MEMORY_FACTOR
     surfaces.MEMORY_FACTOR = 1e12  # as if the file were so much larger
@@ -250,6 +314,8 @@ with tempfile.TemporaryDirectory() as scratch:
         test_colours_by_the_first_values_where_none_are_active,
         test_simulated,
         test_bad_input,
+        test_stl_files_hold_as_many_triangles_as_they_say,
+        test_vectors_that_are_not_finite_do_not_hide_a_surface,
         test_enormous_files_are_refused,
         test_surfaces_that_cannot_be_touched,
         test_as_a_process,

@@ -7,6 +7,8 @@ from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
+from .surfaces import run_reader
+
 
 class RecordingError(Exception):
     """What is wrong with a recording and what to do, for people."""
@@ -21,12 +23,10 @@ def read_recording(path):
         raise RecordingError(f"{what}: it does not end in .vtp. Give a file that --trace wrote.")
     reader = vtkXMLPolyDataReader()
     reader.SetFileName(path)
-    messages = []
-    reader.AddObserver("ErrorEvent", lambda *_: messages.append(True))
-    reader.Update()
+    errors = run_reader(reader)
     trace = reader.GetOutput()
     hip, time = (trace.GetPointData().GetArray(name) for name in ("HapticInterfacePoint", "Time"))
-    if messages or not hip or not time or hip.GetNumberOfTuples() < 2:
+    if errors or not hip or not time or hip.GetNumberOfTuples() < 2:
         raise RecordingError(
             f"{path}: holds no recorded hand. Give a file that --trace wrote, with at least two "
             "points and the point arrays HapticInterfacePoint and Time."

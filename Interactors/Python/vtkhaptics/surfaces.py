@@ -38,14 +38,21 @@ LARGEST_SHARE = 0.5  # of the memory: what triangles and engine of a file may ta
 MEMORY_FACTOR = 12.0  # what they take at most, in lengths of a binary file
 
 
-def _run(reader, progress):
+# VTK keeps the range of lengths that a writer has found in an array of vectors; where it is infinite
+# or NaN no reader of VTK can parse it again. The array itself is read in full.
+HARMLESS = "Error reading InformationKey element"
+
+
+def run_reader(reader, progress=None):
     """Updates the reader and returns what it complained of, most telling first."""
     errors, warnings, failures = [], [], []
 
     def listener(messages):
         def keep(_caller, _event, text):
             # "ERROR: In file.cxx, line 1 vtkClass (0x1): what happened" -> "what happened"
-            messages.append(re.sub(r"^.*?\(0x[0-9a-f]+\): ", "", " ".join(text.split())))
+            message = re.sub(r"^.*?\(0x[0-9a-f]+\): ", "", " ".join(text.split()))
+            if not message.startswith(HARMLESS):
+                messages.append(message)
 
         keep.CallDataType = "string0"
         return keep
@@ -80,6 +87,25 @@ def _refuse_enormous(path):
             f"{path}: {size / 2**30:.1f} GB would take more than half of the memory "
             f"({memory / 2**30:.1f} GB) once triangulated. Decimate it first, for example with "
             "vtkQuadricDecimation, or cut out the part to touch."
+        )
+
+
+def _refuse_false_stl_count(path):
+    """vtkSTLReader takes memory for as many triangles as a binary file says, and ends the process
+    where there is not so much. Zero is what programs write that do not know it yet: read to the end.
+    """
+    size = os.path.getsize(path)
+    with open(path, "rb") as file:
+        start = file.read(256)
+    # As VTK tells them apart. Not by 'solid': headers of binary files begin with it too.
+    text = bytes([*range(0x20, 0x80), *b"\t\n\r"])
+    if len(start) < 84 or len(start.translate(None, delete=text)) < 0.05 * len(start):
+        return
+    told, held = int.from_bytes(start[80:84], "little"), (size - 84) // 50
+    if told not in (0, held):
+        raise SurfaceError(
+            f"{path}: says that it holds {told:,} triangles, but its {size:,} bytes are those of "
+            f"{held:,}. It was cut short, or is no binary STL: get or save it again."
         )
 
 
@@ -174,18 +200,22 @@ def read_surface(path, progress=None):
         raise SurfaceError(f"{path}: there is no such file. Check the path.")
     if not os.access(path, os.R_OK):
         raise SurfaceError(f"{path}: may not be read. Check the file's permissions.")
-    extension = os.path.splitext(path.lower().removesuffix(".gz"))[1]
-    if extension == ".gii":
+    extension = os.path.splitext(path.lower())[1]
+    if extension == ".gii" or path.lower().endswith(".gii.gz"):
         return _read_gifti(path)
+    if extension == ".gz":
+        raise SurfaceError(f"{path}: is compressed, which only .gii files may be: gunzip it first.")
     if extension not in READERS:
         raise SurfaceError(
             f"{path}: files of type '{extension}' are not known. "
             f"Convert it to one of {', '.join(FORMATS)}."
         )
     _refuse_enormous(path)
+    if extension == ".stl":
+        _refuse_false_stl_count(path)
     reader = READERS[extension]()
     reader.SetFileName(path)
-    errors = _run(reader, progress)
+    errors = run_reader(reader, progress)
     if errors:
         raise SurfaceError(
             f"{path}: could not be read as {extension[1:].upper()}: {errors[0]} "
