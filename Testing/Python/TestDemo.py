@@ -1,11 +1,14 @@
 """The demo leaves its picture, trace and table, and says what is wrong with bad input."""
 
+import math
 import os
 import subprocess
 import sys
 import tempfile
 
 from vtkmodules.vtkCommonComputationalGeometry import vtkParametricTorus
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
 from vtkmodules.vtkFiltersSources import vtkLineSource, vtkParametricFunctionSource
 from vtkmodules.vtkIOImage import vtkPNGReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
@@ -32,7 +35,14 @@ def write(source, path):
 def test_touches_a_surface(folder):
     torus = vtkParametricFunctionSource()
     torus.SetParametricFunction(vtkParametricTorus())
-    surface = write(torus, os.path.join(folder, "torus.vtp"))
+    torus.Update()
+    stray = vtkPolyData()
+    stray.DeepCopy(torus.GetOutput())
+    stray.GetPoints().InsertNextPoint(math.nan, math.nan, math.nan)  # of no triangle
+    stray.GetPointData().Initialize()
+    producer = vtkTrivialProducer()
+    producer.SetOutput(stray)
+    surface = write(producer, os.path.join(folder, "torus.vtp"))
     output = os.path.join(folder, "made", "here")
     done = demo("--surface", surface, "--output", output, "--seconds", "3", "--offscreen")
     assert done.returncode == 0, done.stdout + done.stderr

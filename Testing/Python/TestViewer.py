@@ -15,10 +15,12 @@ from vtkmodules.vtkFiltersSources import vtkLineSource, vtkSphereSource
 from vtkmodules.vtkIOGeometry import vtkSTLWriter
 from vtkmodules.vtkIOImage import vtkPNGReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
+from vtkmodules.vtkRenderingCore import vtkCamera
 
 from vtkhaptics import surfaces
 from vtkhaptics import viewer as viewer_module
 from vtkhaptics.arguments import parse
+from vtkhaptics.picture import fill_view
 from vtkhaptics.progress import ProgressBar
 from vtkhaptics.recording import read_recording
 from vtkhaptics.viewer import Viewer, main
@@ -255,6 +257,20 @@ def test_vectors_that_are_not_finite_do_not_hide_a_surface(folder):
         assert failed.returncode == 2 and "could not be read" in failed.stderr, failed.stderr
 
 
+def test_the_view_passes_over_points_that_are_not_finite(folder):
+    surface = read(ball(0.0, folder))
+    points = vtk_to_numpy(surface.GetPoints().GetData())
+    cameras = [vtkCamera(), vtkCamera()]
+    for camera, seen in zip(cameras, (points, np.vstack([points, [[np.nan, 0.0, np.inf]]]))):
+        fill_view(camera, seen, out=(0.0, -1.0, 0.0), up=(0.0, 0.0, 1.0), aspect=1.5)
+    assert cameras[0].GetPosition() == cameras[1].GetPosition()
+    points[:] = np.nan
+    path = write(surface, os.path.join(folder, "nowhere.vtp"))
+    failed = viewer(path, "--offscreen", "--scalars", "none")
+    assert failed.returncode == 2 and path in failed.stderr, failed.stderr
+    assert "finite coordinates" in failed.stderr, failed.stderr
+
+
 def test_enormous_files_are_refused(folder):
     surface, factor = ball(0.0, folder), surfaces.MEMORY_FACTOR
     surfaces.MEMORY_FACTOR = 1e12  # as if the file were so much larger
@@ -316,6 +332,7 @@ with tempfile.TemporaryDirectory() as scratch:
         test_bad_input,
         test_stl_files_hold_as_many_triangles_as_they_say,
         test_vectors_that_are_not_finite_do_not_hide_a_surface,
+        test_the_view_passes_over_points_that_are_not_finite,
         test_enormous_files_are_refused,
         test_surfaces_that_cannot_be_touched,
         test_as_a_process,

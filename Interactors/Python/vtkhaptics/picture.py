@@ -25,6 +25,8 @@ from vtkmodules.vtkRenderingCore import (
     vtkWindowToImageFilter,
 )
 
+from .surfaces import SurfaceError
+
 SIZE = (1200, 800)
 BACKGROUND = ((0.93, 0.94, 0.96), (0.66, 0.71, 0.78))
 
@@ -89,7 +91,15 @@ def save_window(window, path, scale=2):
 
 def fill_view(camera, points, out, up, aspect, margin=1.12):
     """Looks at points (n x 3) from the direction `out`, as near as shows them all; `aspect` is the
-    picture's width through its height."""
+    picture's width through its height. Points with NaN or infinite coordinates are passed over.
+
+    Raises SurfaceError where no others are left."""
+    points = points[np.isfinite(points).all(axis=1)].astype(float)
+    if not len(points):
+        raise SurfaceError(
+            "no point of the surface has finite coordinates, so there is nothing to look at. "
+            "Check the program that made it."
+        )
     out = np.asarray(out) / np.linalg.norm(out)
     right = np.cross(up, out)
     right /= np.linalg.norm(right)

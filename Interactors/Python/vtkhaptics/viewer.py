@@ -108,14 +108,17 @@ class Viewer:
         self.window.AddRenderer(self.renderer)
         points = np.concatenate([vtk_to_numpy(s.GetPoints().GetData()) for s in self.surfaces])
         width, height = self.options.size
-        fill_view(
-            self.renderer.GetActiveCamera(),
-            points[np.isfinite(points).all(axis=1)].astype(float),
-            out=(0.45, -0.75, 0.5),
-            up=(0.0, 0.0, 1.0),
-            aspect=width / height,
-            margin=1.3,
-        )
+        try:
+            fill_view(
+                self.renderer.GetActiveCamera(),
+                points,
+                out=(0.45, -0.75, 0.5),
+                up=(0.0, 0.0, 1.0),
+                aspect=width / height,
+                margin=1.3,
+            )
+        except SurfaceError as error:
+            raise SurfaceError(f"{', '.join(self.options.surfaces)}: {error}") from error
         self.hand = self.scene.GetGodObjectActor()
         self.hand.ShowTrailOn()
         self.renderer.AddViewProp(self.hand)
