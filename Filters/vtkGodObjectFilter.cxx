@@ -1,5 +1,6 @@
 #include "vtkGodObjectFilter.h"
 
+#include "NumberSetting.h"
 #include "SurfacePreparation.h"
 #include "vtkHapticProperties.h"
 
@@ -55,6 +56,16 @@ vtkGodObjectFilter::vtkGodObjectFilter()
 }
 
 vtkGodObjectFilter::~vtkGodObjectFilter() = default;
+
+void vtkGodObjectFilter::SetMergeTolerance(double value)
+{
+  haptics::SetNumber(this, "MergeTolerance", this->MergeTolerance, value, 0.0, 1e100);
+}
+
+void vtkGodObjectFilter::SetCrackWidth(double value)
+{
+  haptics::SetNumber(this, "CrackWidth", this->CrackWidth, value, 0.0, 1e100);
+}
 
 int vtkGodObjectFilter::FillInputPortInformation(int port, vtkInformation* info)
 {

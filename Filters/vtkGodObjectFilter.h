@@ -130,7 +130,7 @@ public:
    * A fraction of the diagonal of the surface's bounds, or a length [world unit] where
    * MergeToleranceIsAbsolute is on (default off).
    */
-  vtkSetClampMacro(MergeTolerance, double, 0.0, 1e100);
+  void SetMergeTolerance(double value);
   vtkGetMacro(MergeTolerance, double);
   vtkSetMacro(MergeToleranceIsAbsolute, bool);
   vtkGetMacro(MergeToleranceIsAbsolute, bool);
@@ -147,7 +147,7 @@ public:
   vtkSetMacro(AutomaticCrackWidth, bool);
   vtkGetMacro(AutomaticCrackWidth, bool);
   vtkBooleanMacro(AutomaticCrackWidth, bool);
-  vtkSetClampMacro(CrackWidth, double, 0.0, 1e100);
+  void SetCrackWidth(double value);
   vtkGetMacro(CrackWidth, double);
   ///@}
 

@@ -1,6 +1,7 @@
 #include "vtkGodObjectTrace.h"
 
 #include "ErrorText.h"
+#include "NumberSetting.h"
 #include "vtkGodObjectFilter.h"
 #include "vtkHapticProperties.h"
 
@@ -70,7 +71,8 @@ double Work(const haptics::Vec3& force, const haptics::Vec3& from, const haptics
 }
 
 /// The vtkGodObjectFilter whose output reaches the port unchanged, or null. ParaView puts a
-/// vtkPVPostFilter, which passes points and cells on, behind every filter.
+/// vtkPVPostFilter, which passes points and cells on, behind every filter. One that has several
+/// blocks remembers only the last.
 vtkGodObjectFilter* FindPreparation(vtkAlgorithm* consumer, int port)
 {
   vtkAlgorithm* producer = consumer->GetInputAlgorithm(port, 0);
@@ -79,7 +81,8 @@ vtkGodObjectFilter* FindPreparation(vtkAlgorithm* consumer, int port)
   {
     producer = producer->GetInputAlgorithm(0, 0);
   }
-  return vtkGodObjectFilter::SafeDownCast(producer);
+  vtkGodObjectFilter* filter = vtkGodObjectFilter::SafeDownCast(producer);
+  return filter && vtkPolyData::SafeDownCast(filter->GetInputDataObject(0, 0)) ? filter : nullptr;
 }
 }
 
@@ -93,6 +96,26 @@ vtkGodObjectTrace::vtkGodObjectTrace()
 }
 
 vtkGodObjectTrace::~vtkGodObjectTrace() = default;
+
+void vtkGodObjectTrace::SetStiffness(double value)
+{
+  haptics::SetNumber(this, "Stiffness", this->Stiffness, value, 0.0, 1e100);
+}
+
+void vtkGodObjectTrace::SetMaximumForce(double value)
+{
+  haptics::SetNumber(this, "MaximumForce", this->MaximumForce, value, 0.0, 1e100);
+}
+
+void vtkGodObjectTrace::SetWorldToDeviceScale(double value)
+{
+  haptics::SetNumber(this, "WorldToDeviceScale", this->WorldToDeviceScale, value, 1e-100, 1e100);
+}
+
+void vtkGodObjectTrace::SetTickPeriod(double value)
+{
+  haptics::SetNumber(this, "TickPeriod", this->TickPeriod, value, 1e-6, 1.0);
+}
 
 int vtkGodObjectTrace::FillInputPortInformation(int port, vtkInformation* info)
 {
@@ -301,7 +324,8 @@ void vtkGodObjectTrace::Replay(vtkPolyData* path, vtkGodObjectFilter* prepared, 
     {
       felt.Shaded = Scaled(contact.Shaded, this->WorldToDeviceScale);
       felt.Period = this->TickPeriod;
-      felt.IsTouching = contact.NumberOfConstraints > 0;
+      felt.IsTouching =
+        contact.NumberOfConstraints > 0 || contact.Status == haptics::UpdateStatus::Overloaded;
       felt.Felt = contact.Felt;
       force = surfaceForce.Update(felt, this->Stiffness, limits);
       stiffness = felt.IsTouching ? surfaceForce.GetStiffness() : this->Stiffness;

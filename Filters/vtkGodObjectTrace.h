@@ -6,7 +6,8 @@
  * interface point (HIP), one a servo tick [world]. Its cells are not looked at. Port 1: the
  * surface, any vtkPolyData. Where that comes from a vtkGodObjectFilter, its surface is used as it
  * is, with that filter's side and engine; otherwise a vtkGodObjectFilter inside prepares it, with
- * the properties of this class.
+ * the properties of this class. So it does where that filter has several blocks: each is followed
+ * by itself.
  *
  * The output is the polyline of the god-object [world], one point for each HIP, with the point data
  * of the path (such as `Time` [s]) and:
@@ -67,7 +68,7 @@ public:
    * @brief Stiffness of the spring between HIP and god-object, in the device frame [N/m].
    * Default 500; range 0 to 1e100, other values are clamped.
    */
-  vtkSetClampMacro(Stiffness, double, 0.0, 1e100);
+  void SetStiffness(double value);
   vtkGetMacro(Stiffness, double);
   ///@}
 
@@ -76,7 +77,7 @@ public:
    * @brief A longer force is shortened to this [N], its direction kept. Default 3.3, what common
    * desktop devices give; range 0 to 1e100, other values are clamped.
    */
-  vtkSetClampMacro(MaximumForce, double, 0.0, 1e100);
+  void SetMaximumForce(double value);
   vtkGetMacro(MaximumForce, double);
   ///@}
 
@@ -85,7 +86,7 @@ public:
    * @brief Metres in the device frame for one world unit [m]. Default 1; range 1e-100 to 1e100,
    * other values are clamped.
    */
-  vtkSetClampMacro(WorldToDeviceScale, double, 1e-100, 1e100);
+  void SetWorldToDeviceScale(double value);
   vtkGetMacro(WorldToDeviceScale, double);
   ///@}
 
@@ -94,7 +95,7 @@ public:
    * @brief Time from one HIP to the next [s], for surfaces with damping or force shading. Default
    * 0.001; range 1e-6 to 1, other values are clamped.
    */
-  vtkSetClampMacro(TickPeriod, double, 1e-6, 1.0);
+  void SetTickPeriod(double value);
   vtkGetMacro(TickPeriod, double);
   ///@}
 

@@ -1,5 +1,6 @@
 #include "vtkHapticProperties.h"
 
+#include "NumberSetting.h"
 #include "PropertyArrays.h"
 
 #include "vtkDataArray.h"
@@ -60,6 +61,16 @@ vtkHapticProperties::vtkHapticProperties()
 }
 
 vtkHapticProperties::~vtkHapticProperties() = default;
+
+void vtkHapticProperties::SetTextureAmplitude(double value)
+{
+  haptics::SetNumber(this, "TextureAmplitude", this->TextureAmplitude, value, 0.0, 0.5);
+}
+
+void vtkHapticProperties::SetFeatureAngle(double value)
+{
+  haptics::SetNumber(this, "FeatureAngle", this->FeatureAngle, value, 0.0, 180.0);
+}
 
 const char* vtkHapticProperties::GetPropertyName(int property)
 {

@@ -178,7 +178,7 @@ public:
   /**
    * @brief How much the picture changes the force. Default 0.2; 0 to 0.5, other values are clamped.
    */
-  vtkSetClampMacro(TextureAmplitude, double, 0.0, 0.5);
+  void SetTextureAmplitude(double value);
   vtkGetMacro(TextureAmplitude, double);
   ///@}
 
@@ -196,7 +196,7 @@ public:
    * @brief Edges that turn by more than this stay sharp under force shading [degrees]. Default 30;
    * 0 to 180, other values are clamped.
    */
-  vtkSetClampMacro(FeatureAngle, double, 0.0, 180.0);
+  void SetFeatureAngle(double value);
   vtkGetMacro(FeatureAngle, double);
   ///@}
 

@@ -4,7 +4,6 @@
 #include "vtkActor.h"
 #include "vtkAlgorithmOutput.h"
 #include "vtkBoundingBox.h"
-#include "vtkCallbackCommand.h"
 #include "vtkCommand.h"
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkGodObjectFilter.h"
@@ -54,15 +53,15 @@ HapticSurface::HapticSurface(int id, vtkAlgorithmOutput* geometry)
 HapticSurface::~HapticSurface()
 {
   this->CancelBuild();
+  this->Preparation->RemoveObserver(this->Listener); // the filter may live on: it is handed out
 }
 
 void HapticSurface::ListenToErrors()
 {
   // The scene reports them, with the surface that they are about.
-  vtkNew<vtkCallbackCommand> listener;
-  listener->SetClientData(this);
-  listener->SetCallback(HapticSurface::KeepError);
-  this->Preparation->AddObserver(vtkCommand::ErrorEvent, listener);
+  this->Listener->SetClientData(this);
+  this->Listener->SetCallback(HapticSurface::KeepError);
+  this->Preparation->AddObserver(vtkCommand::ErrorEvent, this->Listener);
 }
 
 void HapticSurface::KeepError(vtkObject*, unsigned long, void* clientData, void* text)

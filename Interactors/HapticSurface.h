@@ -6,6 +6,7 @@
 #include "SurfaceProperties.h"
 #include "TriangleSurface.h"
 #include "vtkActor.h"
+#include "vtkCallbackCommand.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
@@ -161,6 +162,7 @@ private:
   vtkSmartPointer<vtkAlgorithm> Producer; // an output port does not keep its algorithm alive
   vtkSmartPointer<vtkAlgorithmOutput> Geometry;
   vtkNew<vtkGodObjectFilter> Preparation;
+  vtkNew<vtkCallbackCommand> Listener;
   bool Shown = true;
   bool Gripped = false;
   bool Carried = false;

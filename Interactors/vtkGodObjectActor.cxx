@@ -1,6 +1,7 @@
 #include "vtkGodObjectActor.h"
 
 #include "ForceColor.h"
+#include "NumberSetting.h"
 #include "vtkActor.h"
 #include "vtkCamera.h"
 #include "vtkConeSource.h"
@@ -115,6 +116,16 @@ vtkGodObjectActor::vtkGodObjectActor()
 }
 
 vtkGodObjectActor::~vtkGodObjectActor() = default;
+
+void vtkGodObjectActor::SetSize(double value)
+{
+  haptics::SetNumber(this, "Size", this->Size, value, 1e-300, VTK_DOUBLE_MAX);
+}
+
+void vtkGodObjectActor::SetReferenceForce(double value)
+{
+  haptics::SetNumber(this, "ReferenceForce", this->ReferenceForce, value, 1e-300, VTK_DOUBLE_MAX);
+}
 
 void vtkGodObjectActor::ShowThrough()
 {

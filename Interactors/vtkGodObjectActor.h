@@ -93,7 +93,7 @@ public:
    * Radius of the god-object's sphere; the other parts are in proportion. A fraction of the view's
    * height, or, with SizeInWorld, a length [world unit]. Default 0.012; greater than 0.
    */
-  vtkSetClampMacro(Size, double, 1e-300, VTK_DOUBLE_MAX);
+  void SetSize(double value);
   vtkGetMacro(Size, double);
   ///@}
 
@@ -112,7 +112,7 @@ public:
    * Force whose arrow is 12 times as long as Size [N]; arrows are proportional to the force.
    * Default 3.3, the limit of common devices; greater than 0.
    */
-  vtkSetClampMacro(ReferenceForce, double, 1e-300, VTK_DOUBLE_MAX);
+  void SetReferenceForce(double value);
   vtkGetMacro(ReferenceForce, double);
   ///@}
 

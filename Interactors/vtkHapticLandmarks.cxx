@@ -13,6 +13,7 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
+#include "vtkVariant.h"
 
 #include <algorithm>
 #include <cmath>
@@ -76,7 +77,9 @@ std::string ValueOf(vtkDataSetAttributes* values, const std::string& column)
       if (column ==
         std::string(array->GetName()) + (count > 1 ? "_" + std::to_string(c) : std::string()))
       {
-        return Quoted(array->GetVariantValue(c).ToString());
+        // As many digits as tell every value of its type.
+        const int digits = array->GetDataType() == VTK_FLOAT ? 9 : 17;
+        return Quoted(array->GetVariantValue(c).ToString(vtkVariant::DEFAULT_FORMATTING, digits));
       }
     }
   }

@@ -5,6 +5,7 @@
 #include "vtkDoubleArray.h"
 #include "vtkGodObjectFilter.h"
 #include "vtkGodObjectTrace.h"
+#include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -211,6 +212,39 @@ TEST(GodObjectTrace, UsesTheSurfaceOfAGodObjectFilterAsItIs)
   EXPECT_EQ(filter->GetNumberOfBuilds(), 2);
 }
 
+TEST(GodObjectTrace, FollowsEachBlockOfAGodObjectFilterByItself)
+{
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  for (const double x : { 0.0, 1.0 })
+  {
+    vtkNew<vtkSphereSource> ball;
+    ball->SetRadius(0.2);
+    ball->SetCenter(x, 0.0, 0.0);
+    ball->SetThetaResolution(x == 0.0 ? 8 : 40); // other numbers of triangles
+    ball->Update();
+    blocks->SetBlock(x == 0.0 ? 0 : 1, ball->GetOutput());
+  }
+  vtkNew<vtkGodObjectFilter> filter;
+  filter->SetInputDataObject(blocks);
+  std::vector<Point> positions;
+  AddLine(positions, { 0.0, 0.0, 0.3 }, { 0.0, 0.0, 0.1 }, 10); // into the first
+  vtkNew<vtkGodObjectTrace> trace;
+  trace->SetInputData(Path(positions));
+  trace->SetSurfaceConnection(filter->GetOutputPort());
+  trace->Update();
+  auto* traces = vtkMultiBlockDataSet::SafeDownCast(trace->GetOutputDataObject(0));
+  ASSERT_NE(traces, nullptr);
+  vtkPolyData* first = vtkPolyData::SafeDownCast(traces->GetBlock(0));
+  vtkPolyData* second = vtkPolyData::SafeDownCast(traces->GetBlock(1));
+  ASSERT_NE(first, nullptr);
+  ASSERT_NE(second, nullptr);
+  EXPECT_GE(Value(first, "ActiveConstraints", 10), 1.0);
+  EXPECT_EQ(Value(second, "ActiveConstraints", 10), 0.0);
+  const double cells = vtkPolyData::SafeDownCast(blocks->GetBlock(0))->GetNumberOfCells();
+  EXPECT_LT(Value(first, "OriginalCellId", 10), cells);
+  EXPECT_GE(Value(first, "OriginalCellId", 10), 0.0);
+}
+
 TEST(GodObjectTrace, NamesTheCellsOfItsOwnInput)
 {
   // Through a filter whose output was copied, hence prepared anew: ids are those of port 1.
@@ -249,6 +283,24 @@ void ExpectRefused(vtkPolyData* path, vtkPolyData* surface, const std::string& w
   EXPECT_NE(messages.Errors().find(word), std::string::npos) << messages.Errors();
   EXPECT_EQ(trace->GetOutput()->GetNumberOfPoints(), 0);
 }
+}
+
+TEST(GodObjectTrace, RefusesASettingThatIsNoNumber)
+{
+  vtkNew<vtkGodObjectTrace> trace;
+  MessageCatcher messages(trace);
+  trace->SetStiffness(200.0);
+  trace->SetStiffness(std::nan(""));
+  EXPECT_EQ(trace->GetStiffness(), 200.0);
+  EXPECT_NE(messages.Errors().find("Stiffness has to be a number"), std::string::npos);
+  trace->SetStiffness(-1.0);
+  EXPECT_EQ(trace->GetStiffness(), 0.0);
+
+  vtkNew<vtkGodObjectFilter> filter;
+  MessageCatcher filterMessages(filter);
+  filter->SetMergeTolerance(std::nan(""));
+  EXPECT_EQ(filter->GetMergeTolerance(), 0.0);
+  EXPECT_NE(filterMessages.Errors().find("MergeTolerance"), std::string::npos);
 }
 
 TEST(GodObjectTrace, RefusesAMissingOrEmptyPath)

@@ -4,6 +4,7 @@
 
 #include "vtkActor.h"
 #include "vtkCellArray.h"
+#include "vtkGodObjectFilter.h"
 #include "vtkHapticProbe.h"
 #include "vtkPoints.h"
 #include "vtkPolyDataMapper.h"
@@ -207,4 +208,20 @@ TEST(HapticSceneBadInput, ReleaseLetsGoOfAForceInVirtualTimeToo)
   EXPECT_EQ(asked[2], 0.0);
   EXPECT_EQ(hand.Scene->GetForce()[2], 0.0);
   EXPECT_FALSE(hand.Scene->GetTouching());
+}
+
+TEST(HapticSceneBadInput, AFilterMayOutliveItsSurfaceAndFail)
+{
+  vtkSmartPointer<vtkGodObjectFilter> filter;
+  {
+    LedHand hand;
+    filter = hand.Scene->GetSurfaceFilter(hand.Scene->AddSurface(MakeTable(0.0)));
+    hand.Scene->Step(1);
+  }
+  EXPECT_FALSE(filter->HasObserver(vtkCommand::ErrorEvent)) << "it would call who is gone";
+  EventCounter errors(filter, vtkCommand::ErrorEvent);
+  vtkNew<vtkPolyData> nothing;
+  filter->SetInputData(nothing);
+  filter->Update();
+  EXPECT_EQ(errors.Count, 1);
 }

@@ -231,8 +231,7 @@ TEST(SceneEvents, AButtonDropsALandmarkThoughTheSurfacesChangeBeforeTheSceneLook
   hand.Scene->Step(1);
   hand.Device->SetPosition(0.01, 0.02, 0.002);
   ASSERT_TRUE(hand.Scene->Engage()) << hand.Scene->GetErrorMessage();
-  const auto letTicksGoBy = []
-  { std::this_thread::sleep_for(std::chrono::milliseconds(30)); };
+  const auto letTicksGoBy = [] { std::this_thread::sleep_for(std::chrono::milliseconds(30)); };
   letTicksGoBy();
   hand.Device->SetPosition(0.01, 0.02, -0.002);
   letTicksGoBy();
@@ -249,7 +248,13 @@ TEST(SceneEvents, AButtonDropsALandmarkThoughTheSurfacesChangeBeforeTheSceneLook
 TEST(HapticLandmarks, DropListUndoAndExport)
 {
   LedHand hand;
-  hand.Scene->AddSurface(MakeValuedTable());
+  vtkSmartPointer<vtkPolyData> table = MakeValuedTable();
+  vtkNew<vtkDoubleArray> northing; // more than six digits tell
+  northing->SetName("Northing");
+  northing->SetNumberOfValues(table->GetNumberOfPoints());
+  northing->FillValue(4812345.681);
+  table->GetPointData()->AddArray(northing);
+  hand.Scene->AddSurface(table);
   hand.MoveTo(0.01);
   vtkHapticLandmarks* marks = hand.Scene->GetLandmarks();
   {
@@ -281,8 +286,9 @@ TEST(HapticLandmarks, DropListUndoAndExport)
   file.close();
   std::remove("landmarks.csv");
   EXPECT_EQ(text.str().find("label,x,y,z,surface,cell"), 0U);
-  EXPECT_NE(text.str().find(",Heat,Part\r\n"), std::string::npos) << text.str();
+  EXPECT_NE(text.str().find(",Heat,Northing,Part\r\n"), std::string::npos) << text.str();
   EXPECT_NE(text.str().find("\"lid, upper\""), std::string::npos) << text.str();
+  EXPECT_NE(text.str().find(",4812345.6"), std::string::npos) << text.str();
 
   EXPECT_TRUE(marks->Undo());
   EXPECT_EQ(marks->GetNumberOfLandmarks(), 1);
