@@ -84,21 +84,21 @@ bool Press(UsbFs& bus, Received& received)
     received.HasPushed = received.HasPushed || received.Pushes;
   };
   bus.Plug(1, model);
-  auto* device = vtkFalconHapticDevice::New();
+  static auto* const device = vtkFalconHapticDevice::New(); // static: no leak
   device->Open();
-  auto* servo = vtkHapticServo::New();
+  static auto* const servo = vtkHapticServo::New();
   servo->SetDevice(device);
   servo->SetStallLimit(60.0);
   servo->GetSafety()->LoosenWatchdogTime(1.0);
   servo->GetSafety()->LoosenMissedTickShare(60.0);
   servo->PublishGodObject(MakeGodObject(MakePlane(0.13, 0.1)));
-  const auto isOpen = [device]
+  const auto isOpen = []
   {
     device->Update();
     return device->IsOpen();
   };
   if (!WaitFor(isOpen) || !servo->Start() ||
-    !WaitFor([servo] { return servo->GetNumberOfTicks() > 50; }))
+    !WaitFor([] { return servo->GetNumberOfTicks() > 50; }))
   {
     return false;
   }
@@ -136,7 +136,7 @@ protected:
     if (child == 0)
     {
       haptics::LeaveEndingSignalsToOtherThreads(); // the bus is no thread of ours, and must go on
-      auto* bus = new UsbFs;
+      static auto* const bus = new UsbFs;
       TakeEndingSignals();
       if (!Press(*bus, *received))
       {
