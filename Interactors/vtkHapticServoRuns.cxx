@@ -5,14 +5,25 @@
 #include "vtkHapticSafety.h"
 
 #include "vtkHapticDevice.h"
+#include "vtkRecordedHapticDevice.h"
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <string>
+#include <system_error>
 #include <utility>
 
 namespace
 {
 constexpr double NanosecondsInSecond = 1e9;
+
+/// Also by two names. False where one of them does not exist.
+bool IsSameFile(const std::string& a, const std::string& b)
+{
+  std::error_code none;
+  return std::filesystem::equivalent(a, b, none);
+}
 }
 
 bool vtkHapticServo::Begin(int state)
@@ -39,6 +50,15 @@ bool vtkHapticServo::Begin(int state)
   this->UnrecordedTicks = 0;
   if (!this->RecordingFileName.empty())
   {
+    auto* played = vtkRecordedHapticDevice::SafeDownCast(this->Device);
+    if (played && IsSameFile(played->GetFileName(), this->RecordingFileName))
+    {
+      this->Internal->Unclaim();
+      this->Fail("The recording " + this->RecordingFileName +
+        " is being played and cannot be recorded to. Give another RecordingFileName, or an empty "
+        "one to run without.");
+      return false;
+    }
     haptics::RecordingHeader header;
     header.Rate = this->Rate;
     header.MaximumForce = this->Device->GetMaximumForce();

@@ -6,6 +6,7 @@
 #include "vtkCamera.h"
 #include "vtkCommand.h"
 #include "vtkHapticScene.h"
+#include "vtkHapticServo.h"
 #include "vtkInteractorStyle.h"
 #include "vtkMath.h"
 #include "vtkMatrix4x4.h"
@@ -179,6 +180,13 @@ void vtkMouseHapticDevice::OnEvent(vtkObject*, unsigned long event, void* client
   self->Callback->SetAbortFlag(self->Handle(event) ? 1 : 0);
 }
 
+/// Whether a scene asks where the hand is. Before and after, the mouse is the camera's alone.
+bool vtkMouseHapticDevice::IsInUse()
+{
+  const int state = this->Scene ? this->Scene->GetServo()->GetState() : vtkHapticServo::Running;
+  return this->IsOpen() && (state == vtkHapticServo::Running || state == vtkHapticServo::Stepping);
+}
+
 /// True where nobody else is to see the event.
 bool vtkMouseHapticDevice::Handle(unsigned long event)
 {
@@ -187,7 +195,7 @@ bool vtkMouseHapticDevice::Handle(unsigned long event)
   const bool space = key && std::strcmp(key, "space") == 0;
   auto* style = vtkInteractorStyle::SafeDownCast(this->Interactor->GetInteractorStyle());
   const bool draggingTheCamera = style && style->GetState() != VTKIS_NONE;
-  if (!this->IsOpen() || draggingTheCamera)
+  if (!this->IsInUse() || draggingTheCamera)
   {
     return false;
   }

@@ -115,6 +115,7 @@ private:
   struct View;
 
   static void OnEvent(vtkObject* caller, unsigned long event, void* clientData, void* callData);
+  bool IsInUse();
   bool Handle(unsigned long event);
   bool Look(View& view);
   void MoveWithin(const View& view, double depth);

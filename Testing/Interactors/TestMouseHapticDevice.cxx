@@ -76,6 +76,18 @@ TEST(MouseHapticDevice, TheWheelLandsOnTheSurfaceThenPressesAStepANotch)
   EXPECT_EQ(window.Hand.Scene->GetForce()[2], 0.0);
 }
 
+TEST(MouseHapticDevice, TheWheelZoomsAgainOnceTheSceneIsReleased)
+{
+  MouseWindow window;
+  vtkCamera* camera = window.Renderer->GetActiveCamera();
+  const double before = camera->GetDistance();
+  window.Send(vtkCommand::MouseWheelForwardEvent, 50, 50);
+  EXPECT_EQ(camera->GetDistance(), before);
+  window.Hand.Scene->Release();
+  window.Send(vtkCommand::MouseWheelForwardEvent, 50, 50);
+  EXPECT_LT(camera->GetDistance(), before);
+}
+
 TEST(MouseHapticDevice, TheWheelZoomsOnlyWithControl)
 {
   MouseWindow window;

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <thread>
 
@@ -67,6 +68,24 @@ std::vector<TickRecord> PlayBack(const std::string& fileName)
   servo->DrainRecords(records);
   return records;
 }
+
+/// Counts a servo's errors, and keeps them out of the output.
+class ErrorCount
+{
+public:
+  explicit ErrorCount(vtkHapticServo* servo)
+  {
+    this->Command->SetClientData(this);
+    this->Command->SetCallback([](vtkObject*, unsigned long, void* self, void*)
+      { ++static_cast<ErrorCount*>(self)->Count; });
+    servo->AddObserver(vtkCommand::ErrorEvent, this->Command);
+  }
+
+  int Count = 0;
+
+private:
+  vtkNew<vtkCallbackCommand> Command;
+};
 
 /// FNV-1a of the forces in nanonewtons, so that the last bits of a C library's square root are not
 /// asked about.
@@ -131,6 +150,29 @@ TEST(Recording, OfARealServoGivesTheSameForcesBitForBit)
   EXPECT_GT(touching, replayed.size() / 2);
 }
 
+TEST(Recording, IsNotWrittenOverWhileItIsPlayed)
+{
+  const std::string file = "kept.hrec";
+  vtkNew<vtkSimulatedHapticDevice> hand;
+  vtkNew<vtkHapticServo> servo;
+  ASSERT_TRUE(hand->Open());
+  servo->SetDevice(hand);
+  servo->SetRecordingFileName(file.c_str());
+  ASSERT_EQ(servo->Step(100), 100);
+  servo->Stop();
+  vtkNew<vtkRecordedHapticDevice> played;
+  played->SetFileName(file);
+  ASSERT_TRUE(played->Open()) << played->GetErrorMessage();
+  servo->SetDevice(played);
+  servo->SetRecordingFileName("./kept.hrec");
+  const ErrorCount errors(servo);
+  EXPECT_EQ(servo->Step(10), 0);
+  EXPECT_NE(std::string(servo->GetErrorMessage()).find("is being played"), std::string::npos);
+  servo->SetRecordingFileName("");
+  EXPECT_EQ(servo->Step(100), 100) << "it is whole";
+  std::remove(file.c_str());
+}
+
 TEST(Recording, GoldenOnesForcesAreWhatTheyHaveAlwaysBeen)
 {
   // Made by StrokeTheRoof() at a thousand steps of virtual time. A change of the hash is a change
@@ -153,23 +195,18 @@ TEST(Recording, OnAFullDiskIsAnErrorAndTheServoGoesOn)
 {
   vtkNew<vtkSimulatedHapticDevice> device;
   vtkNew<vtkHapticServo> servo;
-  int errors = 0;
-  vtkNew<vtkCallbackCommand> command;
-  command->SetClientData(&errors);
-  command->SetCallback(
-    [](vtkObject*, unsigned long, void* count, void*) { ++*static_cast<int*>(count); });
-  servo->AddObserver(vtkCommand::ErrorEvent, command);
+  const ErrorCount errors(servo);
   StrokeTheRoof(device);
   servo->SetDevice(device);
   servo->SetRecordingFileName("no-such-folder/a.haptic");
   EXPECT_EQ(servo->Step(1), 0);
   EXPECT_NE(std::string(servo->GetErrorMessage()).find("no-such-folder"), std::string::npos);
-  EXPECT_EQ(errors, 1);
+  EXPECT_EQ(errors.Count, 1);
 
   servo->SetRecordingFileName("/dev/full"); // takes nothing, as a full disk
   EXPECT_EQ(servo->Step(1), 0) << "the header cannot be written";
   EXPECT_NE(std::string(servo->GetErrorMessage()).find("/dev/full"), std::string::npos);
-  EXPECT_EQ(errors, 2);
+  EXPECT_EQ(errors.Count, 2);
 
   servo->SetRecordingFileName("");
   EXPECT_EQ(servo->Step(10), 10);

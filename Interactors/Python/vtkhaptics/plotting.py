@@ -25,6 +25,8 @@ class Touch:
         self.scene.RemoveAllSurfaces()
         for prop in (self.scene.GetGodObjectActor(), self.scene.GetOverlay()):
             self._renderer.RemoveViewProp(prop)
+        if isinstance(self.device, vtkMouseHapticDevice):
+            self.device.SetInteractor(None)
         interactor, _ = _view_of(self._plotter)
         if interactor.GetInteractorStyle() is self.style:
             _set_style(self._plotter, self._style_before)
