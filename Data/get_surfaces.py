@@ -10,6 +10,7 @@ import dataclasses
 import fnmatch
 import gzip
 import hashlib
+import importlib.util
 import io
 import os
 import pathlib
@@ -21,6 +22,7 @@ import zipfile
 
 import surface_formats
 
+SYSTEM_PYTHON = "/usr/bin/python3"  # the one that Debian's NumPy and VTK are made for
 DEFAULT_FOLDER = pathlib.Path(__file__).resolve().parent.parent / "build" / "surfaces"
 
 
@@ -217,13 +219,17 @@ def parse_arguments():
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter,
         epilog="Examples:\n  get_surfaces.py gearbox\n  get_surfaces.py --output /tmp/s cranium pial\n\n"
-        "Exit status: 0 done, 2 wrong arguments, 3 a surface could not be had (--no-fallback).")
+        "Needs NumPy and VTK's Python modules for all but plain STL files: a Python that lacks\n"
+        f"them hands over to {SYSTEM_PYTHON}.\n\n"
+        "Exit status: 0 done, 1 a module is missing or the folder cannot be written, 2 wrong\n"
+        "arguments, 3 a surface could not be had (--no-fallback); the others were got.")
     parser.add_argument("names", nargs="*", metavar="NAME", help="surfaces; 'all' for every one")
     parser.add_argument("--list", action="store_true", help="name the surfaces and their licences")
     parser.add_argument("--output", type=pathlib.Path, default=DEFAULT_FOLDER, metavar="DIR",
                         help="where they go (default: build/surfaces of this project)")
     parser.add_argument("--no-fallback", action="store_true",
-                        help="where a surface cannot be had, fail instead of making one")
+                        help="where a surface cannot be had, get the others and fail, instead of "
+                        "making one")
     arguments = parser.parse_args()
     unknown = [name for name in arguments.names if name not in SURFACES and name != "all"]
     if unknown:
@@ -233,24 +239,49 @@ def parse_arguments():
     return arguments
 
 
+def hand_over():
+    """Goes on in the system's Python where this one (pyenv's, say) lacks what is needed."""
+    if all(importlib.util.find_spec(module) for module in ("numpy", "vtkmodules")):
+        return
+    if sys.executable != SYSTEM_PYTHON and os.access(SYSTEM_PYTHON, os.X_OK):
+        os.execv(SYSTEM_PYTHON, [SYSTEM_PYTHON, *sys.argv])
+
+
+def get_all(names, folder, fallback):
+    """Prints the path of each; returns the exit status."""
+    status = 0
+    for name in names:
+        try:
+            print(get(name, folder), flush=True)
+        except Unavailable as reason:
+            say(f"get_surfaces.py: '{name}' could not be had: {reason}.")
+            if not fallback:
+                status = 3
+                continue
+            say("Instead, here is a surface of this project's own, a knot. To get the real one, "
+                "make the package registries reachable ('apt-get update' as root may help).")
+            print(get_fallback(folder), flush=True)
+    return status
+
+
 def main():
     arguments = parse_arguments()
     if arguments.list:
         for name, surface in SURFACES.items():
             print(f"{name:10} {surface.about}\n{'':10} {surface.package}; {surface.licence}")
         return 0
+    hand_over()
     names = SURFACES if "all" in arguments.names else arguments.names
-    for name in names:
-        try:
-            print(get(name, arguments.output.resolve()))
-        except Unavailable as reason:
-            say(f"get_surfaces.py: '{name}' could not be had: {reason}.")
-            if arguments.no_fallback:
-                return 3
-            say("Instead, here is a surface of this project's own, a knot. To get the real one, "
-                "make the package registries reachable ('apt-get update' as root may help).")
-            print(get_fallback(arguments.output.resolve()))
-    return 0
+    try:
+        return get_all(names, arguments.output.resolve(), not arguments.no_fallback)
+    except ImportError as error:
+        say(f"get_surfaces.py: {error}. It needs NumPy and VTK's Python modules (Debian: "
+            "python3-numpy, and python3-vtk9 or python3-paraview): install them, and run it with "
+            f"{SYSTEM_PYTHON}.")
+    except OSError as error:
+        say(f"get_surfaces.py: {error.filename or arguments.output}: {error.strerror or error}. "
+            "Check the space on the disk, or choose another folder with --output.")
+    return 1
 
 
 if __name__ == "__main__":

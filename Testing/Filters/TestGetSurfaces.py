@@ -10,6 +10,7 @@ import unittest
 from vtkhaptics import vtkGodObjectFilter
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
+SYSTEM_PYTHON = "/usr/bin/python3"
 SCRIPT = pathlib.Path(os.environ["HAPTICS_SOURCE_DIR"], "Data", "get_surfaces.py")
 
 
@@ -19,11 +20,11 @@ class TestGetSurfaces(unittest.TestCase):
         self.addCleanup(scratch.cleanup)
         self.folder = pathlib.Path(scratch.name, "surfaces")
 
-    def run_script(self, *arguments):
+    def run_script(self, *arguments, python=(sys.executable,), folder=None, **environment):
         # Without PATH neither apt-get nor dpkg-deb is found: no registry is in reach.
-        environment = dict(os.environ, PATH="")
+        environment = dict(os.environ, PATH="", PYTHONDONTWRITEBYTECODE="1", **environment)
         return subprocess.run(
-            [sys.executable, "-B", str(SCRIPT), "--output", str(self.folder), *arguments],
+            [*python, str(SCRIPT), "--output", str(folder or self.folder), *arguments],
             env=environment, capture_output=True, text=True, check=False)
 
     def test_the_list_names_surfaces_packages_and_licences(self):
@@ -68,6 +69,41 @@ class TestGetSurfaces(unittest.TestCase):
         done = self.run_script("--no-fallback", "gearbox")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual((self.folder / "gearbox.stl").read_bytes(), b"kept")
+
+    def test_a_surface_that_cannot_be_had_does_not_stop_the_others(self):
+        self.folder.mkdir()
+        (self.folder / "t13.stl").write_bytes(b"kept")
+        done = self.run_script("--no-fallback", "gearbox", "t13")
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn("'gearbox' could not be had", done.stderr)
+        self.assertEqual(done.stdout.split(), [str((self.folder / "t13.stl").resolve())])
+
+    def test_a_folder_that_cannot_be_made_is_named(self):
+        self.folder.write_bytes(b"a file")
+        for inside in ("", "below"):
+            done = self.run_script("gearbox", folder=self.folder / inside)
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertIn(str(self.folder.resolve()), done.stderr)
+            self.assertIn("--output", done.stderr)
+            self.assertNotIn("Traceback", done.stderr)
+
+    @unittest.skipUnless(os.access(SYSTEM_PYTHON, os.X_OK), "no Python of the system")
+    def test_where_no_python_has_the_modules_they_are_named(self):
+        done = self.run_script("gearbox", python=(SYSTEM_PYTHON, "-S"), PYTHONPATH="")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        for word in ("numpy", "python3-numpy", "python3-vtk9", SYSTEM_PYTHON):
+            self.assertIn(word, done.stderr)
+        self.assertNotIn("Traceback", done.stderr)
+
+    @unittest.skipUnless(
+        os.path.realpath(sys.executable) == os.path.realpath(SYSTEM_PYTHON),
+        "needs the modules in the system's Python")
+    def test_a_python_without_the_modules_hands_over_to_the_systems(self):
+        other = pathlib.Path(self.folder.parent, "python3")
+        other.symlink_to(SYSTEM_PYTHON)
+        done = self.run_script("gearbox", python=(str(other), "-S"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue(pathlib.Path(done.stdout.strip()).is_file(), done.stdout)
 
 
 if __name__ == "__main__":
