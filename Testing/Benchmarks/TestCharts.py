@@ -1,11 +1,15 @@
-"""The charts keep their form: drawn from fixed numbers they look as in the baselines.
+"""The charts keep their form: drawn from fixed numbers they look as in the baselines. The head of a
+table says what was built.
 
 usage: TestCharts.py BASELINE_FOLDER OUTPUT_FOLDER
 """
 
 import math
+import os
 import pathlib
+import subprocess
 import sys
+import tempfile
 
 import charts
 from vtkmodules.vtkIOImage import vtkPNGReader
@@ -57,6 +61,29 @@ def fixed_numbers(folder):
                              "held_z_mm", "force_n"), rows)
 
 
+def contact_table(build_type):
+    """What contact.sh makes of a build, with a stand-in for the benchmark."""
+    with tempfile.TemporaryDirectory() as scratch:
+        build = pathlib.Path(scratch)
+        (build / "CMakeCache.txt").write_text(
+            f"CMAKE_BUILD_TYPE:STRING={build_type}\nCMAKE_CXX_COMPILER:FILEPATH=/bin/echo\n",
+            encoding="utf-8")
+        for folder, name, content in (
+                ("surfaces", "frog.vtp", ""),  # or it would be fetched
+                ("bin", "HapticsContactBenchmark",
+                 "#!/bin/sh\nfor a; do case $a in --benchmark_out=*) out=${a#*=};; esac; done\n"
+                 "printf 'name,iterations\\n\"Made_median\",1\\n' > \"$out\"\n")):
+            (build / folder).mkdir()
+            (build / folder / name).write_text(content, encoding="utf-8")
+        (build / "bin" / "HapticsContactBenchmark").chmod(0o755)
+        environment = {**os.environ, "BUILD": scratch}
+        environment.pop("HAPTICS_SURFACES", None)
+        script = pathlib.Path(__file__).with_name("contact.sh")
+        subprocess.run(["sh", script, build / "table.csv"], env=environment, check=True,
+                       capture_output=True)
+        return (build / "table.csv").read_text(encoding="utf-8")
+
+
 def looks_alike(picture, baseline, output):
     reader, testing = vtkPNGReader(), vtkTesting()
     reader.SetFileName(str(picture))
@@ -64,6 +91,10 @@ def looks_alike(picture, baseline, output):
         testing.AddArgument(argument)
     return testing.RegressionTest(reader, THRESHOLD) == vtkTesting.PASSED
 
+
+table = contact_table("Debug")
+if ", Debug\n" not in table or '"Made_median",1' not in table:
+    sys.exit("contact.sh does not say what was built:\n" + table)
 
 baselines, output = (pathlib.Path(p).resolve() for p in sys.argv[1:3])
 drawn = output / "Charts"  # vtkTesting leaves files of the same names in `output`

@@ -32,6 +32,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
 build=${BUILD:-$root/build}
 results=$here/results
+. "$here/head.sh"
 measure=$build/bin/HapticsMeasure
 
 if [ -z "$draw" ]; then
@@ -48,12 +49,8 @@ if [ -z "$draw" ]; then
   rows=$(mktemp)
   trap 'rm -f "$head" "$rows"' EXIT
   {
-    echo "# machine: $(sed -n 's/^model name[^:]*: *//p' /proc/cpuinfo | sort -u | head -1), $(nproc) cores"
-    echo "# system: $(sed -n 's/^PRETTY_NAME="\(.*\)"/\1/p' /etc/os-release)"
-    echo "# compiler: $(c++ --version | head -1), $(sed -n 's/^CMAKE_BUILD_TYPE:STRING=//p' "$build/CMakeCache.txt")"
+    print_head
     echo "# libraries: $("$measure" --versions)"
-    echo "# commit: $(git -C "$root" rev-parse --short HEAD 2>/dev/null || echo unknown)"
-    echo "# date: $(date +%Y-%m-%d), load when started: $(cut -d ' ' -f 1 /proc/loadavg)"
     echo "# seed: 11, command: sh Testing/Benchmarks/charts.sh $full"
   } > "$head"
   mkdir -p "$results"

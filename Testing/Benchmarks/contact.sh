@@ -7,6 +7,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
 build=${BUILD:-$root/build}
 out=${1:-$here/results/contact.csv}
+. "$here/head.sh"
 program=$build/bin/HapticsContactBenchmark
 if [ ! -x "$program" ]; then
   echo "No $program: build first, for example with sh Testing/test.sh; it needs libbenchmark-dev." >&2
@@ -19,17 +20,15 @@ export HAPTICS_SURFACES
 /usr/bin/python3 "$root/Data/get_surfaces.py" --no-fallback --output "$HAPTICS_SURFACES" frog >&2 ||
   echo "The frog could not be had." >&2
 
+head=$(mktemp)
 rows=$(mktemp)
-trap 'rm -f "$rows"' EXIT
+trap 'rm -f "$head" "$rows"' EXIT
+print_head > "$head"
 # Interleaved, so that a machine that is slower for some seconds is so for every row.
 "$program" --benchmark_enable_random_interleaving=true --benchmark_out="$rows" --benchmark_out_format=csv >&2
 mkdir -p "$(dirname "$out")"
 {
-  echo "# machine: $(sed -n 's/^model name[^:]*: *//p' /proc/cpuinfo | sort -u | head -1), $(nproc) cores"
-  echo "# system: $(sed -n 's/^PRETTY_NAME="\(.*\)"/\1/p' /etc/os-release)"
-  echo "# compiler: $(c++ --version | head -1), Release"
-  echo "# commit: $(git -C "$root" rev-parse --short HEAD 2>/dev/null || echo unknown)"
-  echo "# date: $(date +%Y-%m-%d)"
+  cat "$head"
   grep '^name' "$rows"
   grep _median "$rows" | sort
 } > "$out"
