@@ -31,7 +31,8 @@
  * empty output and no surface. A surface that was handed out earlier stays valid for who holds it.
  *
  * Composite inputs are taken one block after the other: every block of the output is clean, and
- * GetSurface() is that of the last block. Not for surfaces of more than 2^31 - 1 corners.
+ * GetSurface() is that of the last block. Not for surfaces of more than 2^31 - 1 corners, nor for
+ * single concave polygons of many thousand: their time grows with the square, 2 s at 8,000.
  *
  * All methods are for the GUI thread. The surface may be read in any thread.
  *

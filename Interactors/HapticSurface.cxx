@@ -7,34 +7,13 @@
 #include "vtkCommand.h"
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkGodObjectFilter.h"
-#include "vtkIdTypeArray.h"
 #include "vtkMapper.h"
-#include "vtkMatrix4x4.h"
 #include "vtkPolyData.h"
 
-#include <algorithm>
-#include <cmath>
-#include <optional>
-#include <sstream>
 #include <utility>
 
 namespace haptics
 {
-namespace
-{
-constexpr double LargestSpeed = 5.0; ///< of a surface that pushes a hand, in the hand [m/s]
-
-/// How long a motion takes: while one comes with each update, or with every other one, the time
-/// from one to the next. A surface whose next update comes later than LongestMotion has rested
-/// before it.
-double DurationSince(double last, const PullSettings& settings)
-{
-  const double since = settings.Now - last;
-  const double duration = since > 0.0 && since <= LongestMotion ? since : settings.Interval;
-  return std::clamp(duration, 0.0, LongestMotion);
-}
-}
-
 HapticSurface::HapticSurface(int id, vtkActor* actor)
   : Identifier(id)
   , Source(actor)
@@ -237,218 +216,6 @@ void HapticSurface::FollowGeometry(const PullSettings& settings, std::string& er
   this->StartBuild(settings, std::make_shared<SurfacePreparation>(geometry, options), error);
 }
 
-/// False where the snapshot needs another matrix baked into it.
-bool HapticSurface::FollowMatrix(const PullSettings& settings, std::string& error)
-{
-  const double determinant = Determinant(this->LastMatrix);
-  if (!std::isfinite(determinant) || determinant == 0.0)
-  {
-    this->RefuseMatrix(error);
-    return true;
-  }
-  const std::optional<RigidPose> pose = FindPose(this->LastMatrix, this->Baked);
-  if (pose)
-  {
-    this->LastMatrixError.clear();
-    this->MoveTo(*pose, settings);
-  }
-  return pose.has_value();
-}
-
-void HapticSurface::RefuseMatrix(std::string& error)
-{
-  const std::string text =
-    "the actor's matrix flattens it or is not finite; check its scale and user matrix";
-  if (text != this->LastMatrixError)
-  {
-    error = text;
-    this->LastMatrixError = text;
-  }
-}
-
-void HapticSurface::MoveTo(const RigidPose& pose, const PullSettings& settings)
-{
-  if (pose == this->Placed)
-  {
-    return;
-  }
-  const double duration = DurationSince(this->LastMoved, settings);
-  this->LastMoved = settings.Now;
-  const double way = this->LengthOfWay(pose);
-  const double largestSpeed = LargestSpeed * settings.Scale;
-  const bool isTooFast = settings.IsLive && way > largestSpeed * LongestMotion;
-  if (!settings.IsLive || isTooFast)
-  {
-    this->Moving->JumpTo(pose);
-  }
-  else
-  {
-    this->Moving->SetLargestSpeed(largestSpeed);
-    this->Moving->MoveTo(pose, duration);
-  }
-  this->Placed = pose;
-  this->IsElsewhere = true;
-  this->TellJump("It", isTooFast ? way : 0.0, settings, this->HasToldJump);
-}
-
-/// Once, until a motion is no jump. `way`: of the jump [world unit]; 0: it is none.
-void HapticSurface::TellJump(
-  const char* what, double way, const PullSettings& settings, bool& wasTold)
-{
-  const bool isJump = way > 0.0;
-  if (isJump && !wasTold)
-  {
-    std::ostringstream text;
-    text.precision(3);
-    text << what << " was moved by " << way / settings.Scale
-         << " m in the hand from one update to the next, where a hand can be pushed by "
-         << LargestSpeed * LongestMotion << " m at most (" << LargestSpeed << " m/s for "
-         << LongestMotion << " s). It was put in its new place at once and has pushed nothing. "
-         << "Move it in smaller steps, or let the device reach farther (ScaleWorkspace).";
-    this->Notice += (this->Notice.empty() ? "" : " ") + text.str();
-  }
-  wasTold = isJump;
-}
-
-double HapticSurface::LengthOfWay(const RigidPose& pose) const
-{
-  const Vec3 from = this->Placed.PointToWorld(this->InForce->Origin());
-  const Vec3 to = pose.PointToWorld(this->InForce->Origin());
-  double cosine = 0.0;
-  for (std::size_t i = 0; i < 4; ++i)
-  {
-    cosine += pose.Rotation[i] * this->Placed.Rotation[i];
-  }
-  const double angle = 2.0 * std::acos(std::min(1.0, std::abs(cosine)));
-  return std::hypot(to[0] - from[0], to[1] - from[1], to[2] - from[2]) +
-    angle * this->InForce->Radius();
-}
-
-void HapticSurface::StartBuild(
-  const PullSettings& settings, std::shared_ptr<SurfacePreparation> preparation, std::string& error)
-{
-  const double determinant = Determinant(this->LastMatrix);
-  if (!std::isfinite(determinant) || determinant == 0.0)
-  {
-    this->WasRefused = true;
-    this->RefuseMatrix(error);
-    return;
-  }
-  // What is in force stays where it is if it can, so that the servo goes on with its motion.
-  Matrix4 baked = this->LastMatrix;
-  if (this->InForce && FindPose(this->LastMatrix, this->Baked))
-  {
-    baked = this->Baked;
-  }
-  else if (FindPose(this->LastMatrix, IdentityMatrix))
-  {
-    baked = IdentityMatrix;
-  }
-  this->Build = std::make_shared<SurfaceBuild>(preparation, baked);
-  if (this->Build->Prepares() && this->InForce && AreSame(baked, this->Baked) && settings.IsLive &&
-    settings.IsTaken && !this->WasUnseen)
-  {
-    preparation->FollowOn(this->Base);
-    // As long as the source has taken, however long it had to wait.
-    const double since = this->SeenAt - this->LastChanged; // negative where the servo began anew
-    const double duration =
-      std::clamp(this->HasRested || since < 0.0 ? this->SeenInterval : since, 0.0, LongestMotion);
-    this->Build->DeformFrom(this->InForce, this->Deformer, duration, LargestSpeed * settings.Scale);
-  }
-  this->BuildSeenAt = this->SeenAt;
-  if (settings.Worker)
-  {
-    if (this->Build->Prepares())
-    {
-      this->Build->Preparation()->CopyPoints();
-    }
-    settings.Worker->Start(this->Build);
-    return;
-  }
-  this->Build->SetProgressCall(
-    [this](double fraction)
-    {
-      this->Preparation->UpdateProgress(fraction);
-      return !this->Preparation->GetAbortExecute();
-    });
-  this->Build->Run();
-  this->TakeBuild(settings, error);
-}
-
-void HapticSurface::TakeBuild(const PullSettings& settings, std::string& error)
-{
-  const std::shared_ptr<SurfaceBuild> done = std::exchange(this->Build, nullptr);
-  this->PreparationError.clear();
-  // What failed after the preparation is not its business.
-  const bool isPrepared = done->Preparation()->Surface() != nullptr;
-  if (done->Prepares() && (isPrepared || done->Error().empty()))
-  {
-    this->Preparation->Take(
-      done->Preparation(), isPrepared ? CleaningResult::Done : done->Result());
-  }
-  if (done->Deforms())
-  {
-    done->Preparation()->Finish();
-  }
-  if (!done->Snapshot())
-  {
-    error +=
-      (error.empty() ? "" : " ") + (done->Error().empty() ? this->PreparationError : done->Error());
-    return;
-  }
-  this->TellPreparationError();
-  const bool isOtherGeometry = done->Preparation() != this->Base;
-  const bool isOtherFrame = !this->InForce || !AreSame(done->Matrix(), this->Baked);
-  this->InForce = done->Snapshot();
-  this->Base = done->Preparation();
-  this->Deformer = done->Deformer();
-  this->Baked = done->Matrix();
-  this->LastChanged = this->BuildSeenAt;
-  this->Jumps += done->Jump() > 0.0 ? 1 : 0;
-  this->TellJump("A point of it", done->Jump(), settings, this->HasToldLeap);
-  if (isOtherGeometry)
-  {
-    if (!done->Deforms())
-    {
-      this->KeepCellIds();
-    }
-    this->KeepAttributes(this->BuildInput);
-  }
-  if (isOtherFrame)
-  {
-    // Where the actor has been scaled meanwhile, the next build is for that.
-    const std::optional<RigidPose> pose = FindPose(this->LastMatrix, this->Baked);
-    this->NeedsBaking = !pose;
-    this->Placed = pose.value_or(this->Placed);
-    this->Moving = this->Source ? std::make_shared<SurfaceMotion>(
-                                    this->Placed, this->InForce->Origin(), this->InForce->Radius())
-                                : nullptr;
-    this->LastMoved = settings.Now;
-  }
-}
-
-Vec3 HapticSurface::PointInActor(const Vec3& point) const
-{
-  if (this->Baked == IdentityMatrix)
-  {
-    return point;
-  }
-  Matrix4 inverse;
-  vtkMatrix4x4::Invert(this->Baked.data(), inverse.data());
-  return Transformed(inverse, point);
-}
-
-void HapticSurface::CancelBuild()
-{
-  if (this->Build)
-  {
-    this->Build->Cancel();
-    this->Build.reset();
-    this->IsPostponed = false;
-    this->Deformer.reset(); // the build may go on with it for a while, to a shape nobody touches
-  }
-}
-
 void HapticSurface::AddBounds(vtkBoundingBox& box) const
 {
   if (const Snapshot touched = this->Touched())
@@ -506,13 +273,5 @@ void HapticSurface::TellPreparationError()
 {
   this->Notice +=
     (this->Notice.empty() || this->PreparationError.empty() ? "" : " ") + this->PreparationError;
-}
-
-void HapticSurface::KeepCellIds()
-{
-  auto ids = std::make_shared<std::vector<vtkIdType>>();
-  vtkIdTypeArray* array = this->Base->OriginalCells();
-  ids->assign(array->GetPointer(0), array->GetPointer(0) + array->GetNumberOfValues());
-  this->Ids = std::move(ids);
 }
 }

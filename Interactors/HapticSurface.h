@@ -12,6 +12,7 @@
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -37,6 +38,18 @@ struct PullSettings
   double Now = 0.0;      ///< the servo's time [s]
   double Interval = 0.0; ///< since the Pull() before [s]
   double Scale = 1.0;    ///< of the workspace [world unit / m in the hand]
+
+  /// Of a surface that pushes a hand, in the hand [m/s].
+  static constexpr double LargestSpeed = 5.0;
+  /// How long a motion takes: while one comes with each update, or with every other one, the time
+  /// from one to the next. A surface whose next update comes later than LongestMotion has rested
+  /// before it.
+  double DurationSince(double last) const
+  {
+    const double since = this->Now - last;
+    const double duration = since > 0.0 && since <= LongestMotion ? since : this->Interval;
+    return std::clamp(duration, 0.0, LongestMotion);
+  }
 };
 
 /// @brief One surface of a vtkHapticScene: where it comes from and the snapshot in force.

@@ -29,7 +29,8 @@ namespace
 constexpr int TextInterval = 100;      // [ms]; nobody reads faster
 constexpr double WorkspaceStep = 1.25; // of Finer and Coarser
 constexpr const char* ChooseFile = ""; // the device chooser's entry that asks for a file
-constexpr const char* RecordingFilter = "Haptic recordings (*.hrec);;Paths (*.vtp);;All files (*)";
+constexpr const char* RecordingFilter = "Haptic recordings (*.hrec)";
+constexpr const char* PlayedFilter = "Haptic recordings (*.hrec);;Paths (*.vtp);;All files (*)";
 
 QString number(double value, int digits)
 {
@@ -163,7 +164,7 @@ void pqHapticsPanel::chooseDevice(int index)
 void pqHapticsPanel::chooseRecording()
 {
   auto* dialog = new pqFileDialog(nullptr, pqCoreUtilities::mainWidget(), "Play a Haptic Recording",
-    QString(), RecordingFilter, false);
+    QString(), PlayedFilter, false);
   dialog->setObjectName("HapticRecordingDialog");
   dialog->setFileMode(pqFileDialog::ExistingFile);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
