@@ -170,6 +170,33 @@ def test_the_window_is_there_while_surfaces_are_built(folder):
     assert not shown.scene.IsSurfaceTouchable(shown.scene.GetSurfaceId(0))
 
 
+def test_what_is_gripped_is_carried_in_the_picture(folder):
+    path = ball(0.0, folder)
+    shown = Viewer(parse([path, "--offscreen", "--size", "200", "200", "--scalars", "none"]))
+    with redirect_stdout(io.StringIO()):
+        shown.add_surfaces()
+    shown.open()
+    assert shown.build()
+    shown.connect()
+    scene, device = shown.scene, shown.device
+    scene.Step(1)
+    device.MoveTo(100, 100)
+    scene.Step(300)
+    device.SetPressed(True)
+    scene.Step(200)
+    assert scene.GetTouching()
+    assert scene.GetSurfaceName(scene.GetTouchedSurface()) == os.path.basename(path)
+    drawn = shown.renderer.GetActors().GetLastActor()
+    before, hand = np.array(drawn.GetCenter()), np.array(scene.GetGodObject())
+    assert scene.Grip(), scene.GetErrorMessage()
+    device.MoveTo(140, 100)
+    for _ in range(10):
+        scene.Step(30)
+    moved, led = np.array(drawn.GetCenter()) - before, np.array(scene.GetGodObject()) - hand
+    assert np.linalg.norm(led) > 0.1, led
+    assert np.linalg.norm(moved - led) < 0.1 * np.linalg.norm(led), (moved, led)
+
+
 def test_bad_input(folder):
     surface = ball(0.0, folder)
     line = vtkLineSource()
@@ -329,6 +356,7 @@ with tempfile.TemporaryDirectory() as scratch:
         test_touches_with_the_mouse_and_replays_it,
         test_colours_by_the_first_values_where_none_are_active,
         test_simulated,
+        test_what_is_gripped_is_carried_in_the_picture,
         test_bad_input,
         test_stl_files_hold_as_many_triangles_as_they_say,
         test_vectors_that_are_not_finite_do_not_hide_a_surface,

@@ -14,6 +14,8 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 from vtkmodules.vtkInteractionStyle import vtkInteractorStyleTrackballCamera
 from vtkmodules.vtkRenderingCore import (
+    vtkActor,
+    vtkPolyDataMapper,
     vtkRenderer,
     vtkRenderWindow,
     vtkRenderWindowInteractor,
@@ -69,9 +71,20 @@ class Viewer:
             self._color(actor, surface, path)
             self.renderer.AddActor(actor)
             self.surfaces.append(surface)
-            prepared = self.scene.GetSurfaceFilter(self.scene.AddSurface(surface))
-            getattr(prepared, SET_SIDE[self.options.side])()
+            self._touch(surface, actor, os.path.basename(path))
             print(unit_note(path, surface), flush=True)
+
+    def _touch(self, surface, shown, name):
+        """Adds a surface to the scene, under an actor that `shown` follows: what is shown has its
+        sharp edges split, and what is touched is as it was read, with the ids of the file."""
+        touched = vtkActor()
+        mapper = vtkPolyDataMapper()
+        mapper.SetInputData(surface)
+        touched.SetMapper(mapper)
+        shown.SetUserMatrix(touched.GetMatrix())
+        id_ = self.scene.AddSurface(touched)
+        self.scene.SetSurfaceName(id_, name)
+        getattr(self.scene.GetSurfaceFilter(id_), SET_SIDE[self.options.side])()
 
     def _color(self, actor, surface, path):
         """Colours an actor by the array that the options ask for."""
@@ -158,7 +171,7 @@ class Viewer:
         for number, path in enumerate(self.options.surfaces):
             id_ = self.scene.GetSurfaceId(number)
             if not self.scene.IsSurfaceTouchable(id_):
-                mine = [text for text in told if text.startswith(f"Surface {id_}:")]
+                mine = [text for text in told if text.startswith(f"Surface {id_} (")]
                 raise SurfaceError(f"{path}: {(mine or told or ['cannot be touched.'])[0]}")
         self.style = vtkInteractorStyleHaptic()
         self.style.SetScene(self.scene)
