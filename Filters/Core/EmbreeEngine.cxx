@@ -113,7 +113,7 @@ public:
     rtcCommitScene(this->Scene);
     if (!input.IsRefitted)
     {
-      this->Bounds = {};
+      std::vector<PointBounds>().swap(this->Bounds); // an assignment would keep its memory
     }
     static const EmbreeLife life;
   }
