@@ -197,13 +197,18 @@ bool vtkGodObjectFilter::Take(
     vtkErrorMacro(<< prepared->Error());
     return false;
   }
-  if (!prepared->SideError().empty() && prepared->SideError() != this->Internals->SaidOfSideValues)
-  {
-    vtkErrorMacro(<< prepared->SideError());
-  }
-  this->Internals->SaidOfSideValues = prepared->SideError();
+  this->TellOfSides(*prepared);
   this->Internals->Built = prepared;
   return true;
+}
+
+void vtkGodObjectFilter::TellOfSides(const haptics::SurfacePreparation& prepared)
+{
+  if (!prepared.SideError().empty() && prepared.SideError() != this->Internals->SaidOfSideValues)
+  {
+    vtkErrorMacro(<< prepared.SideError());
+  }
+  this->Internals->SaidOfSideValues = prepared.SideError();
 }
 
 int vtkGodObjectFilter::RequestData(

@@ -190,6 +190,8 @@ public:
   haptics::PreparationOptions GetOptions(vtkPolyData* geometry);
   bool Take(
     const std::shared_ptr<haptics::SurfacePreparation>& prepared, haptics::CleaningResult result);
+  /** @brief What Take() reports of the side array, for one that deforms and is not taken: once. */
+  void TellOfSides(const haptics::SurfacePreparation& prepared);
   ///@}
 #endif
 

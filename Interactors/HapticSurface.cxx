@@ -163,9 +163,9 @@ void HapticSurface::Follow(const PullSettings& settings, std::string& error)
   const bool isNew =
     !this->Tried || !(version == this->LastTried) || (hasMoved && this->WasRefused);
   // One that comes too soon for the servo waits; another may come before it is its turn.
-  // But where no time passes there is nothing to wait for.
+  // But where nobody steps there is nothing to wait for.
   const bool mayWait = settings.IsLive && !settings.IsTaken && this->InForce &&
-    (settings.Interval > 0.0 || this->IsWaiting);
+    (settings.IsRunning || settings.Interval > 0.0 || this->IsWaiting);
   this->IsWaiting = !this->Build && isNew && mayWait;
   if (!this->Build && isNew && !mayWait)
   {

@@ -33,6 +33,8 @@ struct PullSettings
   BackgroundWorker* Worker = nullptr;
   /// Whether a servo ticks; where not, what moves is in its new place at once.
   bool IsLive = false;
+  /// Whether it does so in real time, and not only while somebody steps it.
+  bool IsRunning = false;
   /// Whether it has what was told last; else a snapshot that it has not seen must not be deformed.
   bool IsTaken = false;
   double Now = 0.0;      ///< the servo's time [s]

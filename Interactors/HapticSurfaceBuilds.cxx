@@ -76,6 +76,7 @@ void HapticSurface::TakeBuild(const PullSettings& settings, std::string& error)
   if (done->Deforms())
   {
     done->Preparation()->Finish();
+    this->Preparation->TellOfSides(*done->Preparation());
   }
   if (!done->Snapshot())
   {

@@ -41,8 +41,8 @@ bool SurfaceBuild::Deform()
     this->Shaper = std::make_shared<SurfaceDeformer>(this->Before);
   }
   const double way = this->Shaper->LongestWay(points);
-  const double needed = GodObject::Haste * way / this->LargestSpeed;
-  this->JumpedBy = needed > LongestMotion ? way : 0.0;
+  this->JumpedBy = way > this->LargestSpeed * LongestMotion ? way : 0.0;
+  const double needed = GodObject::Haste * way / this->LargestSpeed; // it may be hastened
   std::string error; // whatever it is, building anew helps or tells
   this->Built = this->JumpedBy > 0.0
     ? this->Shaper->Replace(std::move(points), error)

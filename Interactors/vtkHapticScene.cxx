@@ -74,6 +74,7 @@ bool vtkHapticScene::Engage()
     return false;
   }
   this->PullState();
+  this->LetGo(); // who stepped has ended with that
   this->PullSurfaces();
   if (!this->Servo->Start())
   {
@@ -174,12 +175,13 @@ bool vtkHapticScene::PullState()
   this->NoticeDevice();
   const bool changed = this->ShowState();
   this->ObeyButtons();
-  const bool carried = this->CarryGripped();
   if (this->Internal->Latest) // what came before has been probed by now
   {
     this->Internal->Surfaces.Forget(this->Internal->Latest->Generation);
   }
   this->Internal->Events.Dispatch(this);
+  // After the events, so that who is told of a grip finds the actor where it was.
+  const bool carried = this->CarryGripped();
   return changed || carried;
 }
 

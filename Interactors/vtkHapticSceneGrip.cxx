@@ -31,6 +31,7 @@ bool vtkHapticScene::Grip()
 
 bool vtkHapticScene::GripSurface(int id)
 {
+  this->PullSurfaces(); // it may have been hidden meanwhile
   haptics::HapticGrip& grip = this->Internal->Grip;
   const haptics::HapticSurface* surface = this->Internal->Surfaces.Find(id);
   const std::string name = "Surface " + std::to_string(id);
@@ -65,7 +66,7 @@ bool vtkHapticScene::GripSurface(int id)
   this->Internal->Events.Add(vtkHapticScene::GripEvent, id);
   this->PullSurfaces();
   this->Modified();
-  return true;
+  return grip.Surface() == id;
 }
 
 bool vtkHapticScene::IsHandThere()

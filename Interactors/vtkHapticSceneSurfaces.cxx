@@ -266,6 +266,7 @@ bool vtkHapticScene::PullSurfaces()
   settings.Worker = this->Internal->BackgroundBuilding ? &this->Internal->Worker : nullptr;
   const int state = this->Servo->GetState();
   settings.IsLive = state == vtkHapticServo::Running || state == vtkHapticServo::Stepping;
+  settings.IsRunning = state == vtkHapticServo::Running;
   settings.IsTaken = this->Servo->GetLatestRecord().Generation == this->Internal->Published;
   settings.Now = this->Servo->GetTime();
   settings.Interval = settings.Now - std::exchange(this->Internal->LastPull, settings.Now);
@@ -279,7 +280,7 @@ bool vtkHapticScene::PullSurfaces()
   const bool clutchMoved = std::exchange(this->Internal->ClutchMoved, false);
   const bool changed = surfaces.Pull(settings, errors) || clutchMoved;
   haptics::HapticGrip& grip = this->Internal->Grip;
-  int lost = grip.IsLost(surfaces) ? grip.Surface() : haptics::HapticGrip::Nothing;
+  const int lost = grip.IsLost(surfaces) ? grip.Surface() : haptics::HapticGrip::Nothing;
   if (lost != haptics::HapticGrip::Nothing)
   {
     grip.LetGo(surfaces);
@@ -297,7 +298,9 @@ bool vtkHapticScene::PullSurfaces()
     grip.Published(generation);
     if (!this->Servo->IsRunning())
     {
-      surfaces.Forget(generation); // all records are drained, no tick can tell of older ones
+      // All records are drained: no tick can tell of older ones than the last.
+      const auto& latest = this->Internal->Latest;
+      surfaces.Forget(latest ? std::min(latest->Generation, generation) : generation);
     }
     surfaces.Published(generation);
   }
@@ -308,7 +311,8 @@ bool vtkHapticScene::PullSurfaces()
   }
   if (lost != haptics::HapticGrip::Nothing)
   {
-    this->InvokeEvent(vtkHapticScene::LetGoEvent, &lost);
+    this->Internal->Events.Add(vtkHapticScene::LetGoEvent, lost);
+    this->Internal->Events.Dispatch(this); // after a grip that waits to be told
   }
   this->TellOfBuilds();
   return changed || surfaces.HaveMoved();

@@ -195,7 +195,12 @@ bool vtkMouseHapticDevice::Handle(unsigned long event)
   const bool space = key && std::strcmp(key, "space") == 0;
   auto* style = vtkInteractorStyle::SafeDownCast(this->Interactor->GetInteractorStyle());
   const bool draggingTheCamera = style && style->GetState() != VTKIS_NONE;
-  if (!this->IsInUse() || draggingTheCamera)
+  if (!this->IsInUse())
+  {
+    this->Pressed = false; // a key that is let go of now is not heard
+    return false;
+  }
+  if (draggingTheCamera)
   {
     return false;
   }

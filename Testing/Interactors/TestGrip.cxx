@@ -369,6 +369,67 @@ TEST(Grip, SetBackWhereItCameFromItPushesNoHand)
 }
 
 // A dropped frame: the scene is updated late, or ticks are lost because it was.
+TEST(Grip, IsToldBeforeTheActorMovesAndItsContactStaysToBeProbed)
+{
+  Workbench bench;
+  bench.Go(0.003, 0.005, 0.018);
+  Point there{ { -1.0, -1.0, -1.0 } };
+  const auto note = [&] { bench.Part->GetPosition(there.data()); };
+  vtkNew<vtkCallbackCommand> command;
+  std::function<void()> callback = note;
+  command->SetClientData(&callback);
+  command->SetCallback([](vtkObject*, unsigned long, void* data, void*)
+    { (*static_cast<std::function<void()>*>(data))(); });
+  bench.Scene->AddObserver(vtkHapticScene::GripEvent, command);
+  ASSERT_TRUE(bench.Scene->Engage()) << bench.Scene->GetErrorMessage();
+  while (!bench.Scene->GetTouching() && bench.Scene->IsEngaged())
+  {
+    bench.Device->SetPosition(
+      0.003, 0.005, bench.Scene->GetHapticInterfacePoint()[2] > 0.025 ? 0.018 : 0.03);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    bench.Scene->Update();
+  }
+  ASSERT_TRUE(bench.Scene->Grip()) << bench.Scene->GetErrorMessage();
+  EXPECT_TRUE(bench.Scene->GetProbe()->GetTouching());
+  bench.Device->SetPosition(0.013, 0.005, 0.018);
+  std::this_thread::sleep_for(std::chrono::milliseconds(30));
+  bench.Scene->Update();
+  EXPECT_EQ(there, (Point{ { 0.0, 0.0, 0.0 } })) << "so that it can be put back";
+  EXPECT_GT(bench.Part->GetPosition()[0], 0.005);
+}
+
+TEST(Grip, IsRefusedOnAnActorThatWasHiddenMeanwhile)
+{
+  Workbench bench;
+  bench.Go(0.003, 0.005, 0.018);
+  Diary diary(bench.Scene);
+  bench.Part->VisibilityOff();
+  {
+    EventCounter errors(bench.Scene, vtkCommand::ErrorEvent);
+    EXPECT_FALSE(bench.Scene->GripSurface(bench.PartId));
+    EXPECT_EQ(errors.Count, 1);
+  }
+  bench.Scene->Step(1);
+  EXPECT_EQ(diary.Events, "");
+}
+
+TEST(Grip, EndsWithTheStepping)
+{
+  Workbench bench;
+  ASSERT_TRUE(bench.PressAndGrip());
+  bench.Scene->Step(5);
+  Point before;
+  bench.Part->GetPosition(before.data());
+  bench.Device->SetPosition(0.05, 0.005, 0.03);
+  ASSERT_TRUE(bench.Scene->Engage());
+  EXPECT_EQ(bench.Scene->GetGrippedSurface(), -1);
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  bench.Scene->Update();
+  Point after;
+  bench.Part->GetPosition(after.data());
+  EXPECT_EQ(before, after);
+}
+
 TEST(Grip, FollowsInRealTime)
 {
   Workbench bench;

@@ -88,6 +88,17 @@ TEST(MouseHapticDevice, TheWheelZoomsAgainOnceTheSceneIsReleased)
   EXPECT_LT(camera->GetDistance(), before);
 }
 
+TEST(MouseHapticDevice, ASpaceBarThatIsLetGoOfBetweenTwoRunsIsNotPressed)
+{
+  MouseWindow window;
+  window.Send(vtkCommand::KeyPressEvent, 50, 50, "space");
+  EXPECT_TRUE(window.Mouse->GetPressed());
+  window.Hand.Scene->Release();
+  window.Send(vtkCommand::KeyReleaseEvent, 50, 50, "space");
+  window.Tick();
+  EXPECT_FALSE(window.Mouse->GetPressed());
+}
+
 TEST(MouseHapticDevice, TheWheelZoomsOnlyWithControl)
 {
   MouseWindow window;

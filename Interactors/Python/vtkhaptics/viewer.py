@@ -152,6 +152,8 @@ class Viewer:
             (self.interactor, self.interactor.AddObserver("ExitEvent", lambda *_: closed.append(1))),
             (self.scene, self.scene.AddObserver(
                 self.scene.SurfaceErrorEvent, lambda *_: told.append(self.scene.GetErrorMessage()))),
+            # Observed, so that VTK does not print it as well.
+            (self.scene, self.scene.AddObserver("ErrorEvent", lambda *_: None)),
         ]
         self.scene.BackgroundBuildingOn()
         self.scene.Update()
@@ -293,6 +295,11 @@ def run(options):
     if viewer.build():
         viewer.connect()
         viewer.run()
+    elif options.screenshot or options.trace:
+        raise ViewerError(
+            "the window was closed before the surfaces were ready: no picture and no trace were "
+            "written. Leave it open until they are."
+        )
 
 
 def main(arguments=None):
