@@ -271,28 +271,47 @@ TEST(ChangingSurfaces, ABadTimeStepIsToldOnceAndTheSeriesGoesOn)
 }
 
 // 0.2 m at 5 m/s take 40 ms, or 50 with the haste in reserve, and not the 33 ms from update to
-// update.
+// update. 0.5 m is the most.
 TEST(ChangingSurfaces, PointsAreNoFasterThanAHandCanFollow)
 {
-  Membrane hand;
-  hand.Scene->Step(33);
-  EventCounter errors(hand.Scene, vtkCommand::ErrorEvent);
-  hand.Producer->SetOutput(Lifted(hand.Flat, 0.2));
-  hand.Scene->Step(1);
-  double before = hand.GodObjectHeight();
-  double fastest = 0.0;
-  for (int tick = 0; tick < 60; ++tick)
+  for (const double height : { 0.2, 0.49 })
   {
-    hand.Scene->GetServo()->Step(1);
-    double at[3];
-    hand.Scene->GetServo()->GetGodObject(at);
-    fastest = std::max(fastest, at[2] - before);
-    before = at[2];
+    Membrane hand;
+    hand.Scene->Step(33);
+    EventCounter errors(hand.Scene, vtkCommand::ErrorEvent);
+    hand.Producer->SetOutput(Lifted(hand.Flat, height));
+    hand.Scene->Step(1);
+    double before = hand.GodObjectHeight();
+    double fastest = 0.0;
+    for (int tick = 0; tick < 130; ++tick)
+    {
+      hand.Scene->GetServo()->Step(1);
+      double at[3];
+      hand.Scene->GetServo()->GetGodObject(at);
+      fastest = std::max(fastest, at[2] - before);
+      before = at[2];
+    }
+    EXPECT_LE(fastest, 0.005) << "m a tick";
+    EXPECT_GT(fastest, 0.0035);
+    EXPECT_NEAR(before, height, Clearance) << "it has pushed the hand all the way";
+    EXPECT_EQ(errors.Count, 0);
   }
-  EXPECT_LE(fastest, 0.005) << "m a tick";
-  EXPECT_GT(fastest, 0.0035);
-  EXPECT_NEAR(before, 0.2, Clearance) << "it has pushed the hand all the way";
-  EXPECT_EQ(errors.Count, 0);
+}
+
+TEST(ChangingSurfaces, DeformOnWhereTheSceneLooksMoreOftenThanTheServoTicks)
+{
+  Membrane hand;
+  ASSERT_TRUE(hand.Scene->Engage()) << hand.Scene->GetErrorMessage();
+  for (int frame = 0; frame < 30; ++frame)
+  {
+    for (const double more : { 0.0, 1e-5 })
+    {
+      hand.Producer->SetOutput(NextStep(hand.Flat, 1e-4 * frame + more));
+      hand.Scene->Update();
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  EXPECT_EQ(hand.Builds(), 1) << "only points have moved";
 }
 
 TEST(ChangingSurfaces, PointsThatWouldBeFasterAreThereAtOnceWithAMessageAndNoForce)
