@@ -37,8 +37,10 @@ vtkSmartPointer<vtkPolyData> MakeMembrane()
   return plane->GetOutput();
 }
 
-/// The next time step as a reader gives it: points and cells are other objects, alike.
-vtkSmartPointer<vtkPolyData> NextStep(vtkPolyData* before, double height)
+/// The next time step as a reader gives it: points and cells are other objects, alike. `height`: of
+/// a point, by its x.
+template <class Height>
+vtkSmartPointer<vtkPolyData> WithHeights(vtkPolyData* before, const Height& height)
 {
   auto next = vtkSmartPointer<vtkPolyData>::New();
   next->DeepCopy(before);
@@ -46,23 +48,21 @@ vtkSmartPointer<vtkPolyData> NextStep(vtkPolyData* before, double height)
   {
     double p[3];
     next->GetPoint(i, p);
-    next->GetPoints()->SetPoint(i, p[0], p[1], height * std::cos(15.0 * p[0]));
+    next->GetPoints()->SetPoint(i, p[0], p[1], height(p[0]));
   }
   return next;
 }
 
-/// The same, level at a height.
+/// A wave.
+vtkSmartPointer<vtkPolyData> NextStep(vtkPolyData* before, double height)
+{
+  return WithHeights(before, [height](double x) { return height * std::cos(15.0 * x); });
+}
+
+/// Level.
 vtkSmartPointer<vtkPolyData> Lifted(vtkPolyData* before, double height)
 {
-  auto next = vtkSmartPointer<vtkPolyData>::New();
-  next->DeepCopy(before);
-  for (vtkIdType i = 0; i < next->GetNumberOfPoints(); ++i)
-  {
-    double p[3];
-    next->GetPoint(i, p);
-    next->GetPoints()->SetPoint(i, p[0], p[1], height);
-  }
-  return next;
+  return WithHeights(before, [height](double) { return height; });
 }
 
 /// The squared distance from the origin times a sign, on a grid of 8 mm: contours face outwards
