@@ -41,7 +41,7 @@ bool FalconExchange::TryOnce(const FalconCommand& command, FalconReply& reply, i
   const std::int64_t start = Now();
   const std::uint64_t malformed = this->Reader.GetNumberOfMalformed();
   bool answered = false;
-  this->Out.Submit(packet.data(), packet.size(), static_cast<unsigned int>(timeout));
+  this->Out.Submit(packet.data(), packet.size(), static_cast<unsigned int>(timeout), doing);
   while (!answered && this->Reader.GetNumberOfMalformed() == malformed)
   {
     const std::int64_t rest = timeout - (Now() - start) / 1000000;
@@ -49,7 +49,7 @@ bool FalconExchange::TryOnce(const FalconCommand& command, FalconReply& reply, i
     {
       break;
     }
-    this->In.Submit(nullptr, 0, static_cast<unsigned int>(rest));
+    this->In.Submit(nullptr, 0, static_cast<unsigned int>(rest), doing);
     const int status = this->In.Wait();
     if (status != LIBUSB_TRANSFER_TIMED_OUT)
     {
@@ -187,12 +187,12 @@ void FalconExchange::SayFarewell()
 {
   const char* const doing = "sending it zero force";
   const FalconPacket packet = Encode(FalconCommand());
-  this->Out.Submit(packet.data(), packet.size(), FarewellTimeout);
+  this->Out.Submit(packet.data(), packet.size(), FarewellTimeout, doing);
   int status = this->Out.Wait();
   if (status == LIBUSB_TRANSFER_STALL)
   {
     this->Usb.ClearHalt(FalconUsb::OutEndpoint);
-    this->Out.Submit(packet.data(), packet.size(), FarewellTimeout);
+    this->Out.Submit(packet.data(), packet.size(), FarewellTimeout, doing);
     status = this->Out.Wait();
   }
   FalconUsb::Check(status, doing);

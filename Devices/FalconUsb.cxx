@@ -102,13 +102,14 @@ FalconUsb::Transfer::~Transfer()
   libusb_free_transfer(this->Handle);
 }
 
-void FalconUsb::Transfer::Submit(const std::uint8_t* bytes, std::size_t size, unsigned int timeout)
+void FalconUsb::Transfer::Submit(
+  const std::uint8_t* bytes, std::size_t size, unsigned int timeout, const char* doing)
 {
   std::copy_n(bytes, size, this->Buffer);
   const bool in = this->Endpoint == InEndpoint;
   libusb_fill_bulk_transfer(this->Handle, this->Usb.Device, this->Endpoint, this->Buffer,
     static_cast<int>(in ? FtdiPacketSize : size), MarkDone, &this->Done, timeout);
-  this->SubmitFilled(in ? "reading from it" : "writing to it");
+  this->SubmitFilled(doing);
 }
 
 void FalconUsb::Transfer::SubmitFilled(const char* doing)
@@ -297,7 +298,7 @@ void FalconUsb::Control(std::uint8_t request, std::uint16_t value)
 void FalconUsb::Write(const std::uint8_t* bytes, std::size_t size, const char* doing)
 {
   Transfer transfer(*this, OutEndpoint);
-  transfer.Submit(bytes, size, WriteTimeout);
+  transfer.Submit(bytes, size, WriteTimeout, doing);
   Check(transfer.Wait(), doing);
 }
 
@@ -313,7 +314,7 @@ std::vector<std::uint8_t> FalconUsb::Read(std::size_t size, int timeout, const c
     {
       break;
     }
-    transfer.Submit(nullptr, 0, static_cast<unsigned int>(rest));
+    transfer.Submit(nullptr, 0, static_cast<unsigned int>(rest), doing);
     const int status = transfer.Wait();
     if (status != LIBUSB_TRANSFER_TIMED_OUT)
     {

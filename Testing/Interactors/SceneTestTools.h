@@ -11,7 +11,9 @@
 #include "vtkSimulatedHapticDevice.h"
 #include "vtkSmartPointer.h"
 
+#include <chrono>
 #include <cmath>
+#include <thread>
 
 /// A square of 0.2 by 0.2 around the z axis, facing up, in two triangles' worth of one quad.
 inline vtkSmartPointer<vtkPolyData> MakeTable(double height)
@@ -73,6 +75,26 @@ struct LedHand
     this->Scene->Step(1);
   }
   double GodObjectHeight() { return this->Scene->GetGodObject()[2]; }
+  /// Engages a servo that a busy machine may delay without a fault.
+  bool EngagePatiently()
+  {
+    vtkHapticServo* servo = this->Scene->GetServo();
+    servo->SetStallLimit(60.0);
+    servo->GetSafety()->LoosenMissedTickShare(60.0);
+    servo->GetSafety()->LoosenWatchdogTime(1.0);
+    return this->Scene->Engage();
+  }
+  /// Waits until the engaged servo has done so many whole ticks with what was set before, while
+  /// the scene does not look.
+  void AwaitTicks(int ticks = 1)
+  {
+    vtkHapticServo* servo = this->Scene->GetServo();
+    const vtkTypeInt64 enough = servo->GetNumberOfTicks() + 1 + ticks; // one is under way
+    while (servo->GetNumberOfTicks() < enough && servo->IsRunning())
+    {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
 };
 
 /// A float32 table is kept at a distance of its crack width: 2^-21 of 0.1, with some room.

@@ -381,7 +381,7 @@ TEST(Grip, IsToldBeforeTheActorMovesAndItsContactStaysToBeProbed)
   command->SetCallback([](vtkObject*, unsigned long, void* data, void*)
     { (*static_cast<std::function<void()>*>(data))(); });
   bench.Scene->AddObserver(vtkHapticScene::GripEvent, command);
-  ASSERT_TRUE(bench.Scene->Engage()) << bench.Scene->GetErrorMessage();
+  ASSERT_TRUE(bench.EngagePatiently()) << bench.Scene->GetErrorMessage();
   while (!bench.Scene->GetTouching() && bench.Scene->IsEngaged())
   {
     bench.Device->SetPosition(
@@ -392,7 +392,7 @@ TEST(Grip, IsToldBeforeTheActorMovesAndItsContactStaysToBeProbed)
   ASSERT_TRUE(bench.Scene->Grip()) << bench.Scene->GetErrorMessage();
   EXPECT_TRUE(bench.Scene->GetProbe()->GetTouching());
   bench.Device->SetPosition(0.013, 0.005, 0.018);
-  std::this_thread::sleep_for(std::chrono::milliseconds(30));
+  bench.AwaitTicks(30);
   bench.Scene->Update();
   EXPECT_EQ(there, (Point{ { 0.0, 0.0, 0.0 } })) << "so that it can be put back";
   EXPECT_GT(bench.Part->GetPosition()[0], 0.005);
@@ -421,9 +421,9 @@ TEST(Grip, EndsWithTheStepping)
   Point before;
   bench.Part->GetPosition(before.data());
   bench.Device->SetPosition(0.05, 0.005, 0.03);
-  ASSERT_TRUE(bench.Scene->Engage());
+  ASSERT_TRUE(bench.EngagePatiently());
   EXPECT_EQ(bench.Scene->GetGrippedSurface(), -1);
-  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  bench.AwaitTicks(20);
   bench.Scene->Update();
   Point after;
   bench.Part->GetPosition(after.data());
@@ -444,8 +444,8 @@ TEST(Grip, FollowsInRealTime)
     return holds();
   };
   bench.Device->SetPosition(0.003, 0.005, 0.03);
-  ASSERT_TRUE(bench.Scene->Engage());
-  ASSERT_TRUE(waitUntil([&] { return bench.GodObject()[2] > 0.029; }));
+  ASSERT_TRUE(bench.EngagePatiently());
+  bench.AwaitTicks(); // the god-object starts above the part, and not in it
   bench.Device->SetPosition(0.003, 0.005, 0.018);
   ASSERT_TRUE(waitUntil([&] { return bench.Scene->GetTouching(); }));
   bench.Device->SetButtons(GripButton);

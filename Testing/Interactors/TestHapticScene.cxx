@@ -236,7 +236,7 @@ TEST(HapticScene, EngagedItFeelsInRealTimeAndReleasedItAsksForNoForce)
   LedHand hand;
   hand.Scene->AddSurface(MakeTable(0.0));
   hand.MoveTo(0.01);
-  ASSERT_TRUE(hand.Scene->Engage());
+  ASSERT_TRUE(hand.EngagePatiently());
   EXPECT_EQ(hand.Scene->Step(1), 0) << "Step() must not run beside the servo thread";
   hand.Device->SetPosition(0.0, 0.0, 0.005);
   const auto wait = [&](auto condition)

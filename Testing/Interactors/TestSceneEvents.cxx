@@ -13,13 +13,11 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <sstream>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace
@@ -230,17 +228,16 @@ TEST(SceneEvents, AButtonDropsALandmarkThoughTheSurfacesChangeBeforeTheSceneLook
   hand.Device->SetPosition(0.01, 0.02, -0.002);
   hand.Scene->Step(1);
   hand.Device->SetPosition(0.01, 0.02, 0.002);
-  ASSERT_TRUE(hand.Scene->Engage()) << hand.Scene->GetErrorMessage();
-  const auto letTicksGoBy = [] { std::this_thread::sleep_for(std::chrono::milliseconds(30)); };
-  letTicksGoBy();
+  ASSERT_TRUE(hand.EngagePatiently()) << hand.Scene->GetErrorMessage();
+  hand.AwaitTicks();
   hand.Device->SetPosition(0.01, 0.02, -0.002);
-  letTicksGoBy();
+  hand.AwaitTicks();
   hand.Scene->Update();
   ASSERT_TRUE(hand.Scene->GetTouching());
   hand.Device->SetButtons(1);
-  letTicksGoBy();
+  hand.AwaitTicks();
   hand.Scene->SetClutched(true); // nothing is touched from now on
-  letTicksGoBy();
+  hand.AwaitTicks();
   hand.Scene->Update();
   EXPECT_EQ(hand.Scene->GetLandmarks()->GetNumberOfLandmarks(), 1);
 }
