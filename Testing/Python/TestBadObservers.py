@@ -1,4 +1,4 @@
-"""A script that raises in an observer is told so, and the hand is served all the same."""
+"""What an observer raises is raised by the call that caused its event; the hand is served all the same."""
 
 import io
 import time
@@ -6,13 +6,6 @@ from contextlib import redirect_stderr
 
 from vtkhaptics import vtkHapticScene, vtkSimulatedHapticDevice
 from vtkmodules.vtkFiltersSources import vtkPlaneSource
-
-
-def pressing(scene, device):
-    """Brings the hand from above into the table, and back, in virtual time."""
-    for height in (0.01, -0.002, 0.01):
-        device.SetPosition(0.0, 0.0, height)
-        scene.Step(200)
 
 
 def raises(_caller, event):
@@ -32,14 +25,19 @@ def test_virtual_time():
     scene.AddObserver(scene.ContactBeginEvent, raises)
     scene.AddObserver(scene.ContactBeginEvent, lambda *_: others.append(scene.GetTouching()))
     scene.AddObserver(scene.ContactEndEvent, raises)
+    raised = []
     told = io.StringIO()
     with redirect_stderr(told):
-        pressing(scene, device)
-        pressing(scene, device)
-        free = scene.GetForce()
-        device.SetPosition(0.0, 0.0, -0.002)
-        scene.Step(300)
-    assert told.getvalue().count("RuntimeError: the observer") == 5, told.getvalue()
+        for height in (0.01, -0.002, 0.01, 0.01, -0.002, 0.01, -0.002):
+            free = scene.GetForce()
+            device.SetPosition(0.0, 0.0, height)
+            try:
+                scene.Step(300)
+            except RuntimeError as error:
+                raised.append(str(error))
+    assert told.getvalue() == "", told.getvalue()
+    both = ["the observer of ContactBeginEvent", "the observer of ContactEndEvent"]
+    assert raised == [*both, *both, both[0]], raised
     assert others == [True] * 3, "the other observers are called"
     assert free == (0.0, 0.0, 0.0), free
     assert abs(scene.GetForce()[2] - 1.0) < 0.01, scene.GetForce()
@@ -50,19 +48,20 @@ def test_real_time():
     scene.AddObserver(scene.ContactBeginEvent, raises)
     device.SetPosition(0.0, 0.0, 0.01)
     assert scene.Engage(), scene.GetErrorMessage()
-    with redirect_stderr(io.StringIO()) as told:
-        deadline = time.monotonic() + 20.0
-        while not scene.GetTouching() and time.monotonic() < deadline:
-            time.sleep(0.01)
+    raised = []
+    deadline = time.monotonic() + 20.0
+    while not scene.GetTouching() and time.monotonic() < deadline:
+        time.sleep(0.01)
+        try:
             scene.Update()
-            device.SetPosition(0.0, 0.0, -0.002)
+        except RuntimeError as error:
+            raised.append(str(error))
+        device.SetPosition(0.0, 0.0, -0.002)
     assert scene.GetTouching() and scene.IsEngaged()
-    assert "RuntimeError" in told.getvalue()
+    assert raised == ["the observer of ContactBeginEvent"], raised
     scene.Release()
-    force = [0.0, 0.0, 0.0]
     device.Update()
-    device.GetForce(force)
-    assert force == [0.0, 0.0, 0.0], force
+    assert device.GetForce() == (0.0, 0.0, 0.0), device.GetForce()
 
 
 test_virtual_time()

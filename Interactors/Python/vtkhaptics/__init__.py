@@ -1,7 +1,30 @@
 """Feel the surface of any vtkPolyData with a haptic device.
 
-Every class of the VTK Haptics modules is here: ``from vtkhaptics import vtkGodObjectFilter``.
-``python3 -m vtkhaptics.demo --help`` tells how to touch a surface from the command line.
+Where to begin
+--------------
+A path over a surface, without a device, in three lines::
+
+    import vtkhaptics
+    t = vtkhaptics.trace("part.stl", path, scale=0.001)   # path: (n, 3), one position a millisecond
+    t.force                                               # (n, 3) [N]; t.to_dataframe(), t.to_csv()
+
+A surface is a file, a vtkPolyData, a PyVista mesh, an object with vertices and faces (trimesh), or
+a tuple (vertices, faces). With a mouse, in a window::
+
+    vtkhaptics.touch("part.stl")                          # or any other surface
+    vtkhaptics.enable(plotter)                            # what a PyVista or VTK plot shows
+
+With a device, a thousand times a second::
+
+    scene = vtkhaptics.vtkHapticScene()
+    scene.SetDevice(vtkhaptics.vtkSimulatedHapticDevice())
+    scene.AddSurface(vtkhaptics.polydata("part.stl"))
+    with scene.engaged():
+        ...
+
+What fails raises HapticsError. Lengths of surfaces are in their own unit, what concerns the hand is
+in metres, newtons and seconds. ``help(vtkhaptics.trace)``, ``help(vtkhaptics.vtkHapticScene)`` and
+so on have the details; ``python3 -m vtkhaptics --help`` is the viewer.
 """
 
 try:
@@ -9,9 +32,7 @@ try:
     import vtkmodules.vtkRenderingFreeType
     import vtkmodules.vtkRenderingOpenGL2
 
-    from .vtkHapticsFilters import *
-    from .vtkHapticsDevices import *
-    from .vtkHapticsInteractors import *
+    from . import vtkHapticsDevices, vtkHapticsFilters, vtkHapticsInteractors
 except ImportError as error:
     raise ImportError(
         "vtkhaptics: a compiled module could not be loaded (" + str(error) + "). "
@@ -19,4 +40,24 @@ except ImportError as error:
         "Python that the VTK or ParaView packages were made for, on Debian /usr/bin/python3."
     ) from error
 
+from ._version import __version__
+from .classes import CLASSES
+from .errors import HapticsError, HapticsWarning
+
+globals().update(CLASSES)
+
+from .meshes import polydata
 from .plotting import enable
+from .touching import touch
+from .tracing import Trace, trace
+
+__all__ = [
+    "HapticsError",
+    "HapticsWarning",
+    "Trace",
+    "enable",
+    "polydata",
+    "touch",
+    "trace",
+    *CLASSES,
+]

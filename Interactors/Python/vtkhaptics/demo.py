@@ -16,6 +16,7 @@ from vtkmodules.vtkRenderingCore import vtkRenderWindowInteractor
 
 from . import vtkHapticScene, vtkInteractorStyleHaptic, vtkSimulatedHapticDevice
 from .display import DisplayError, ensure_display
+from .errors import HapticsError
 from .picture import OutputError, Picture, add_hand, stroke_lines, write_atomically
 from .stroke import StrokeError, in_device_frame, plan_stroke
 from .surfaces import READERS, SurfaceError, read_surface
@@ -247,7 +248,7 @@ def main(arguments=None):
     except SurfaceError as error:
         print(f"demo: {error}", file=sys.stderr)
         return EXIT_INPUT
-    except (DemoError, OutputError, StrokeError) as error:
+    except (DemoError, HapticsError, OutputError, StrokeError) as error:
         print(f"demo: {error}", file=sys.stderr)
         return EXIT_FAILED
     return EXIT_DONE

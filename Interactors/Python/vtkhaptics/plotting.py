@@ -1,6 +1,7 @@
 """Lets people touch what a plot shows: ``enable(plotter)`` for PyVista, or for plain VTK."""
 
 from . import vtkHapticScene, vtkInteractorStyleHaptic, vtkMouseHapticDevice
+from .errors import HapticsError
 
 
 class Touch:
@@ -50,13 +51,17 @@ def enable(plotter, device=None, stiffness=500.0, overlay=True):
     scene.Update()
     device = device or vtkMouseHapticDevice()
     scene.SetDevice(device)
-    if not scene.FitWorkspace(renderer.GetActiveCamera()):
-        raise ValueError(scene.GetErrorMessage())
+    try:
+        scene.FitWorkspace(renderer.GetActiveCamera())
+    except HapticsError as error:
+        raise ValueError(error.text) from error
     style = vtkInteractorStyleHaptic()
     style.SetScene(scene)
     touch = Touch(scene, style, device, plotter)
-    if not scene.Engage():
-        raise ValueError(scene.GetErrorMessage())
+    try:
+        scene.Engage()
+    except HapticsError as error:
+        raise ValueError(error.text) from error
     renderer.AddViewProp(scene.GetGodObjectActor())
     if overlay:
         renderer.AddViewProp(scene.GetOverlay())

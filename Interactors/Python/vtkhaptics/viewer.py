@@ -32,6 +32,7 @@ from . import (
 from .arguments import parse
 from .coloring import TEXT, color_by, other_arrays, scalar_bar
 from .display import DisplayError, ensure_display
+from .errors import HapticsError
 from .picture import BACKGROUND, OutputError, add_lights, fill_view, save_window, surface_actor, write_atomically
 from .progress import PATIENCE, ProgressBar
 from .recording import RecordingError, read_recording
@@ -322,7 +323,7 @@ def main(arguments=None):
     except SurfaceError as error:
         print(f"vtkhaptics: {error}", file=sys.stderr)
         return EXIT_INPUT
-    except (OutputError, RecordingError, StrokeError, ViewerError) as error:
+    except (HapticsError, OutputError, RecordingError, StrokeError, ViewerError) as error:
         print(f"vtkhaptics: {error}", file=sys.stderr)
         return EXIT_FAILED
     return EXIT_DONE

@@ -1,0 +1,242 @@
+"""Replays a path over a surface: NumPy in, NumPy out."""
+
+import csv
+import os
+
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm, vtkAlgorithmOutput
+
+from .classes import CLASSES
+from .meshes import points, polydata
+
+SIDES = {"automatic": 2, "front": 0, "both": 1}
+
+
+def trace(
+    surface,
+    path,
+    *,
+    time=None,
+    stiffness=500.0,
+    maximum_force=3.3,
+    scale=1.0,
+    period=0.001,
+    side="automatic",
+):
+    """What a hand would feel that follows a path over a surface, without a device.
+
+    Parameters
+    ----------
+    surface
+        What :func:`vtkhaptics.polydata` takes: a vtkPolyData, a PyVista mesh, an object with
+        vertices and faces, ``(vertices, faces)``, the name of a file. A filter, or an output port,
+        is connected; a vtkGodObjectFilter with its own side, engine and properties.
+    path : (n, 3) array, or vtkPolyData
+        Positions of the haptic interface point (HIP) in the surface's frame and unit, one a tick.
+        The first is taken as free space.
+    time : (n,) array, optional
+        When each position was taken [s]: kept with the trace, and without any other effect.
+    stiffness : float
+        Of the spring between HIP and god-object, in the device's frame [N/m].
+    maximum_force : float
+        Longer forces are shortened to this [N].
+    scale : float
+        Metres in the hand for one unit of the surface [m]: 0.001 for a surface in millimetres.
+    period : float
+        From one position to the next [s].
+    side : "automatic", "front" or "both"
+        Which side of the surface can be touched; automatic is the front of closed surfaces.
+
+    Returns
+    -------
+    Trace
+        One row for each position: ``.force`` (n, 3) [N], ``.god_object`` (n, 3), ...
+
+    Raises ValueError and TypeError for arguments that are none of these, and HapticsError for a
+    surface that cannot be touched.
+
+    >>> t = vtkhaptics.trace((vertices, faces), path)
+    >>> t.force                             # (n, 3) [N]
+    """
+    if side not in SIDES:
+        raise ValueError(f"side is {side!r}; give one of {', '.join(map(repr, SIDES))}.")
+    for name, value in (("stiffness", stiffness), ("maximum_force", maximum_force)):
+        if not (np.isfinite(value) and value >= 0.0):
+            raise ValueError(f"{name} is {value}; it must be finite and not below 0.")
+    for name, value in (("scale", scale), ("period", period)):
+        if not (np.isfinite(value) and value > 0.0):
+            raise ValueError(f"{name} is {value}; it must be finite and above 0.")
+    filter_ = CLASSES["vtkGodObjectTrace"]()
+    filter_.SetInputData(0, path_data(path, time))
+    if isinstance(surface, vtkAlgorithm):  # held by its name: a port does not hold its filter
+        filter_.SetSurfaceConnection(surface.GetOutputPort())
+    elif isinstance(surface, vtkAlgorithmOutput):
+        filter_.SetSurfaceConnection(surface)
+    else:
+        filter_.SetSurfaceData(polydata(surface))
+    filter_.SetStiffness(stiffness)
+    filter_.SetMaximumForce(maximum_force)
+    filter_.SetWorldToDeviceScale(scale)
+    filter_.SetTickPeriod(period)
+    filter_.SetSide(SIDES[side])
+    filter_.Update()
+    return Trace(filter_.GetOutput(), period)
+
+
+def path_data(path, time=None):
+    """A vtkPolyData whose points are a path, (n, 3) or a vtkPolyData already, with the point array
+    `Time` [s] where `time` (n,) is given. Raises ValueError."""
+    if isinstance(path, vtkPolyData):
+        data = vtkPolyData()
+        data.ShallowCopy(path)
+    else:
+        data = vtkPolyData()
+        data.SetPoints(points(path, "path"))
+    if not data.GetNumberOfPoints():
+        raise ValueError("path has no points; give at least one position.")
+    if time is not None:
+        seconds = np.asarray(time, float)
+        if seconds.shape != (data.GetNumberOfPoints(),):
+            raise ValueError(
+                f"time has the shape {seconds.shape}; for {data.GetNumberOfPoints()} positions it "
+                f"must be ({data.GetNumberOfPoints()},)."
+            )
+        array = numpy_to_vtk(seconds, deep=True)
+        array.SetName("Time")
+        data.GetPointData().AddArray(array)
+    return data
+
+
+class Trace:
+    """What was felt, one row a tick, as NumPy arrays over VTK's memory: no copies.
+
+    Of a polydata as vtkGodObjectTrace and ``vtkHapticScene.GetTrace()`` make it, which `polydata`
+    is: ``vtkhaptics.Trace(scene.GetTrace())``. An array that has no attribute here is found by its
+    VTK name, ``trace["Energy"]``; ``trace.names`` lists all.
+
+    "world" is the surface's frame and unit, and the axes of forces are the world's.
+    """
+
+    def __init__(self, polydata, period=0.001):
+        self.polydata = polydata
+        self._period = period
+
+    def __len__(self):
+        return self.polydata.GetNumberOfPoints()
+
+    def __repr__(self):
+        return f"<vtkhaptics.Trace of {len(self)} ticks: {', '.join(self.names)}>"
+
+    def __contains__(self, name):
+        return bool(self.polydata.GetPointData().HasArray(name))
+
+    def __getitem__(self, name):
+        """The array of a VTK name, (n,) or (n, components). Raises KeyError."""
+        array = self.polydata.GetPointData().GetArray(name)
+        if array is None:
+            raise KeyError(f"the trace has no array {name!r}. It has {', '.join(self.names)}.")
+        return vtk_to_numpy(array)
+
+    @property
+    def names(self):
+        """The names of the arrays of numbers."""
+        data = self.polydata.GetPointData()
+        return [data.GetArrayName(i) for i in range(data.GetNumberOfArrays()) if data.GetArray(i)]
+
+    @property
+    def time(self):
+        """When each tick was [s], (n,)."""
+        return self["Time"] if "Time" in self else self._period * np.arange(len(self))
+
+    @property
+    def hip(self):
+        """Haptic interface point: where the hand was [world], (n, 3)."""
+        return self["HapticInterfacePoint"]
+
+    @property
+    def god_object(self):
+        """The point that stays outside of the surface [world], (n, 3)."""
+        if not len(self):
+            return np.empty((0, 3))
+        return vtk_to_numpy(self.polydata.GetPoints().GetData())
+
+    @property
+    def force(self):
+        """On the hand [N], (n, 3)."""
+        return self["Force"]
+
+    @property
+    def magnitude(self):
+        """Length of the force [N], (n,). Computed at each call."""
+        return np.linalg.norm(self.force, axis=1)
+
+    @property
+    def touching(self):
+        """Whether the surface holds the god-object, (n,) of bool. Computed at each call."""
+        return self["ActiveConstraints"] > 0
+
+    @property
+    def constraints(self):
+        """Planes that hold the god-object, 0 in free space to 3, (n,)."""
+        return self["ActiveConstraints"]
+
+    @property
+    def cell(self):
+        """Id of the cell touched, of the surface as it was given; -1 in free space, (n,)."""
+        return self["OriginalCellId"]
+
+    @property
+    def penetration(self):
+        """Distance from HIP to god-object [world], (n,)."""
+        return self["Penetration"]
+
+    @property
+    def stiffness(self):
+        """In effect [N/m], (n,)."""
+        return self["Stiffness"]
+
+    @property
+    def energy(self):
+        """What the hand has put in and not got out [J], (n,)."""
+        return self["Energy"]
+
+    def columns(self):
+        """The arrays by column name, each (n,): `Time` first, then `GodObject_X`, `_Y`, `_Z` and so
+        on for vectors; components that are not three are numbered from 0."""
+        columns = {"Time": self.time}
+        for name, values in [("GodObject", self.god_object)] + [(n, self[n]) for n in self.names]:
+            if values.ndim == 1:
+                columns[name] = values
+            else:
+                axes = "XYZ" if values.shape[1] == 3 else range(values.shape[1])
+                columns.update((f"{name}_{axis}", values[:, i]) for i, axis in enumerate(axes))
+        return columns
+
+    def to_dataframe(self):
+        """A pandas.DataFrame with :meth:`columns`, a row a tick. Raises ImportError without pandas."""
+        try:
+            import pandas
+        except ImportError as error:
+            raise ImportError(
+                "to_dataframe() needs pandas (Debian: apt-get install python3-pandas). to_csv() and "
+                "columns() need nothing."
+            ) from error
+        return pandas.DataFrame(self.columns())
+
+    def to_csv(self, path):
+        """Writes :meth:`columns` as CSV, a line with the names first; numbers in full precision.
+        Replaces the file only once all is written."""
+        path = os.fspath(path)
+        columns = self.columns()
+        unfinished = path + ".part"
+        try:
+            with open(unfinished, "w", newline="", encoding="utf-8") as file:
+                writer = csv.writer(file, lineterminator="\n")
+                writer.writerow(columns)
+                writer.writerows(zip(*(values.tolist() for values in columns.values())))
+            os.replace(unfinished, path)
+        finally:
+            if os.path.exists(unfinished):
+                os.remove(unfinished)
