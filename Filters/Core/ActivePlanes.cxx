@@ -11,6 +11,8 @@ namespace
 /// Planes closer to parallel than this squared sine have no usable line in common: one of them is
 /// left out, as it holds wherever the other does. (1e-12 rad; directions err by 1e-16.)
 constexpr double Parallel = 1e-24;
+/// A god-object that keeps this share of the clearance, or more, lacks what rounding has worn down.
+constexpr double WornHeight = 0.9375;
 }
 
 void ActivePlanes::Clear()
@@ -24,6 +26,12 @@ bool ActivePlanes::Has(const FacetId& facet) const
 {
   return std::any_of(this->Planes.begin(), this->Planes.begin() + this->Count,
     [&facet](const ActivePlane& plane) { return plane.Facet == facet; });
+}
+
+bool ActivePlanes::PassesOver(const Vector& point, const FacetId& facet) const
+{
+  return std::any_of(this->Planes.begin(), this->Planes.begin() + this->Count,
+    [&](const ActivePlane& plane) { return !(plane.Facet == facet) && plane.PassesOver(point); });
 }
 
 void ActivePlanes::Add(const ActivePlane& plane)
@@ -52,8 +60,9 @@ Vector ActivePlanes::Nearest(const Vector& from, const Vector& hip)
 {
   const Vector wish = hip - from;
   Vector step(0.0);
-  // A god-object that rounding has worn down below half the clearance is lifted back, where the
-  // planes leave room for that.
+  // A god-object is lifted back to the clearance where rounding has worn that down, so that what
+  // it meets at an edge does not depend on roundings; where it is not even half, as far as the
+  // planes leave room for it.
   if (!this->Solve(wish, true, from, step) && !this->Solve(wish, false, from, step))
   {
     return from;
@@ -85,7 +94,8 @@ bool ActivePlanes::Solve(const Vector& wish, bool raise, const Vector& from, Vec
   {
     const ActivePlane& plane = this->Planes[i];
     const double height = glm::dot(plane.Normal, from - plane.Anchor);
-    const bool lift = raise && height < 0.5 * plane.Clearance;
+    const bool lift =
+      raise && (height < 0.5 * plane.Clearance || height > WornHeight * plane.Clearance);
     planes[i] = { { plane.Normal.x, plane.Normal.y, plane.Normal.z },
       lift ? plane.Clearance - height : std::min(plane.Clearance - height, 0.0) };
   }

@@ -3,6 +3,7 @@
 
 #include "VectorMath.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -30,6 +31,13 @@ struct ActivePlane
   bool IsFlipped = false; ///< the god-object is on the facet's back
   /// Met from so far away that its clearance is more than it has to be: to be met anew.
   bool IsFar = false;
+
+  /// Whether what comes along the plane, at its clearance, passes over a point: it is behind the
+  /// plane, or as good as that.
+  bool PassesOver(const Vector& point) const
+  {
+    return glm::dot(this->Normal, point - this->Anchor) <= 0.25 * this->Clearance;
+  }
 };
 
 /// @brief The planes that became active in one pass, and the nearest point to the HIP they allow.
@@ -48,12 +56,18 @@ public:
   template <class Test>
   void KeepSupports(const Test& isKept)
   {
-    // Supports are in the planes' order, so none is overwritten before it is asked for.
+    // All are asked before one is gone, as the test may look at the others. They are in the planes'
+    // order, so none is overwritten before it is moved.
+    std::array<bool, 3> areKept{};
+    for (int i = 0; i < this->NumberOfSupports; ++i)
+    {
+      areKept[i] = isKept(this->Planes[this->Supports[i]]);
+    }
     int count = 0;
     for (int i = 0; i < this->NumberOfSupports; ++i)
     {
       const int from = this->Supports[i];
-      if (isKept(this->Planes[from]))
+      if (areKept[i])
       {
         if (count != from)
         {
@@ -86,8 +100,23 @@ public:
   ///@}
   bool IsEmpty() const { return this->Count == 0; }
   bool Has(const FacetId& facet) const;
+  /// Whether what comes along one of the planes, other than that of `facet`, passes over a point.
+  bool PassesOver(const Vector& point, const FacetId& facet) const;
   /// Adds a plane; when full, in place of one that does not support the goal.
   void Add(const ActivePlane& plane);
+  /// Takes out the planes that do not pass the test.
+  template <class Test>
+  void Keep(const Test& isKept)
+  {
+    const auto end = std::remove_if(this->Planes.begin(), this->Planes.begin() + this->Count,
+      [&](const ActivePlane& plane) { return !isKept(plane); });
+    const int count = static_cast<int>(end - this->Planes.begin());
+    if (count != this->Count)
+    {
+      this->Clear();
+      this->Count = count;
+    }
+  }
 
   /// The point nearest to `hip` that keeps every plane, given that `from` nearly does; `from`
   /// itself where the planes leave no better. Sets the support.

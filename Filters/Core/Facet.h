@@ -1,6 +1,7 @@
 #ifndef Facet_h
 #define Facet_h
 
+#include "NearestOnTriangle.h"
 #include "VectorMath.h"
 
 #include <algorithm>
@@ -62,29 +63,60 @@ struct Facet
   }
 };
 
+/// A facet is met a little beyond its edges, by so many clearances, where an edge is no other
+/// facet's: closes gaps as wide.
+constexpr double GrowthOverGaps = 4.0;
+/// Beyond an edge that facets share there is no gap: only rounding to cover. It has to be less than
+/// one clearance: a god-object that comes around a sharp edge passes behind the next facet's plane
+/// at one clearance's height, and must not be held there.
+constexpr double GrowthOverSharedEdges = 0.25;
+
 /// How far a facet is taken to reach beyond each of its edges 0-1, 1-2 and 2-0.
 using Growth = std::array<double, 3>;
 
-/// Whether x, projected on the triangle's plane, lies in the triangle grown beyond its edges.
-/// `normal` is the unit normal; its sign follows the corners' order.
-inline bool CoversGrown(const Vector& normal, const Vector& a, const Vector& b, const Vector& c,
-  const Vector& x, const Growth& growth)
+/// How a point that is projected on a facet's plane lies.
+enum class Coverage
 {
-  const auto isWithin = [&](const Vector& from, const Vector& to, double reach)
+  None,
+  Reach, ///< beyond the facet, where it reaches over a gap
+  Own    ///< on the facet itself, or as good as that
+};
+
+/// How x lies over the triangle. It reaches beyond its edges by `growth` and no farther from its
+/// corners either, so that a needle ends where its tip is; within `own` of it is as good as on it.
+/// `normal` is the unit normal; its sign follows the corners' order. `nearest` is set where x is
+/// beyond the triangle and it reaches there: to its nearest point.
+inline Coverage CoverageOf(const Vector& normal, const Vector& a, const Vector& b, const Vector& c,
+  const Vector& x, const Growth& growth, double own, Vector& nearest)
+{
+  double reach = -1.0;
+  const auto isWithin = [&](const Vector& from, const Vector& to, double width)
   {
     const Vector edge = to - from;
     const double inward = glm::dot(glm::cross(normal, edge), x - from);
-    return inward >= 0.0 || inward * inward <= reach * reach * SquaredLength(edge);
+    if (inward >= 0.0)
+    {
+      return true;
+    }
+    reach = std::max(reach, width);
+    return inward * inward <= width * width * SquaredLength(edge);
   };
-  return isWithin(a, b, growth[0]) && isWithin(b, c, growth[1]) && isWithin(c, a, growth[2]);
+  if (!isWithin(a, b, growth[0]) || !isWithin(b, c, growth[1]) || !isWithin(c, a, growth[2]))
+  {
+    return Coverage::None;
+  }
+  if (reach < 0.0)
+  {
+    return Coverage::Own;
+  }
+  const Vector y = x - glm::dot(normal, x - a) * normal;
+  const Vector way = NearestToOrigin(a - y, b - y, c - y);
+  nearest = y + way;
+  const double squared = SquaredLength(way);
+  return squared > reach * reach ? Coverage::None
+    : squared > own * own        ? Coverage::Reach
+                                 : Coverage::Own;
 }
-
-/// A facet is met a little beyond its edges, by so many clearances: closes gaps as wide.
-constexpr double GrowthOverGaps = 4.0;
-/// Where backs are touched too, less beyond an edge that facets share: a god-object that comes
-/// around a sharp edge at one clearance's height passes behind the next facet's plane, no farther
-/// beyond its edge than that, and must not be held there. A shared edge has no gap to close.
-constexpr double GrowthSeenFromBehind = 0.25;
 
 /// The widest that any facet of a surface reaches beyond itself.
 inline double LargestGrowth(double clearance, double longestEdge)

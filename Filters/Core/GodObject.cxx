@@ -132,10 +132,7 @@ bool GodObject::Implementation::FindFirstHit(
     {
       return false;
     }
-    if (other.Fraction < hit.Fraction)
-    {
-      hit = other;
-    }
+    hit.Take(other);
   }
   return true;
 }
@@ -205,6 +202,13 @@ bool GodObject::Implementation::Pass(const Vector& hip)
       return false;
     }
     this->Active.Add(hit.Plane);
+    // One that was met beyond its facet's edge, which is under the new one, is in nobody's way.
+    this->Active.Keep(
+      [&](const ActivePlane& plane)
+      {
+        return plane.Facet == hit.Plane.Facet ||
+          !this->Sets[plane.Facet.Surface].IsPassedOver(plane, this->Position, hit.Plane);
+      });
     goal = this->Active.Nearest(this->Position, hip);
   }
   return false;
@@ -257,7 +261,7 @@ void GodObject::Implementation::KeepSupports(bool keepsFar)
 
 bool GodObject::Implementation::IsOver(const ActivePlane& plane) const
 {
-  return this->Sets[plane.Facet.Surface].Covers(plane, this->Position);
+  return this->Sets[plane.Facet.Surface].Covers(plane, this->Position, this->Active);
 }
 
 GodObject::GodObject(std::vector<TouchedSurface> surfaces)

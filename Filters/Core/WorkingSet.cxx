@@ -7,6 +7,14 @@
 
 namespace haptics
 {
+namespace
+{
+/// Heights that differ by less than so many clearances may do so by rounding.
+constexpr double SlackOfHeight = 1.0 / 16.0;
+/// Of facets met at once so many are compared.
+constexpr int LargestNumberAtOnce = 32;
+}
+
 WorkingSet::WorkingSet(
   std::shared_ptr<const TriangleSurface> surface, std::int32_t index, const SurfaceFrame& frame)
   : Touched(std::move(surface))
@@ -157,17 +165,35 @@ bool WorkingSet::FindFirstHit(
   return true;
 }
 
-Growth WorkingSet::GrowthOf(std::int32_t triangle, double clearance, double wayError) const
+/// `normal` is the facet's, by the order of its corners; `nearest`: see CoverageOf().
+Coverage WorkingSet::CoverageAt(std::int32_t triangle, const Vector& normal, double clearance,
+  double wayError, const Vector& x, Vector& nearest) const
 {
-  const bool hasBack = this->Touched->TouchesBack(triangle);
+  const auto [a, b, c] = this->CornersOf(triangle);
+  const auto& neighbours = this->Touched->AdjacentTriangles()[triangle];
+  const double own = GrowthOverSharedEdges * clearance + wayError;
+  const double overGaps = GrowthOverGaps * clearance + wayError;
   Growth growth;
   for (int k = 0; k < 3; ++k)
   {
-    const bool isShared = this->Touched->AdjacentTriangles()[triangle][k] != BoundaryEdge;
-    growth[k] =
-      (hasBack && isShared ? GrowthSeenFromBehind : GrowthOverGaps) * clearance + wayError;
+    growth[k] = neighbours[k] == BoundaryEdge ? overGaps : own;
   }
-  return growth;
+  return CoverageOf(normal, a, b, c, x, growth, own, nearest);
+}
+
+/// Whether the facet is under x. Where it only reaches over a gap, what stands on the other lip of
+/// the gap must not come down there; but along a plane under which the facet lies nothing comes
+/// down: so a god-object that slides over the edge of a solid, or from one solid to the next, meets
+/// none of the walls below.
+bool WorkingSet::Covers(const FacetId& facet, const Vector& normal, double clearance,
+  double wayError, const Vector& x, const ActivePlanes& planes) const
+{
+  Vector nearest;
+  const Coverage coverage =
+    this->CoverageAt(facet.Triangle, normal, clearance, wayError, x, nearest);
+  return coverage == Coverage::Own ||
+    (coverage == Coverage::Reach &&
+      !planes.PassesOver(this->ToSurface.PointToScene(nearest), facet));
 }
 
 void WorkingSet::Measure(const Vector& x, std::vector<double>& distances) const
@@ -270,6 +296,24 @@ void WorkingSet::SetLimits()
   }
 }
 
+void FacetHit::Take(const FacetHit& other)
+{
+  if (!other || other.Fraction - other.Slack > this->Fraction + this->Slack)
+  {
+    return;
+  }
+  const bool isAtOnce =
+    *this && other.Fraction + other.Slack >= this->Fraction - this->Slack && !other.IsWaypoint;
+  if (isAtOnce && !this->IsWaypoint && other.Depth <= this->Depth)
+  {
+    this->Fraction = std::min(this->Fraction, other.Fraction);
+    return;
+  }
+  const double first = std::min(this->Fraction, other.Fraction);
+  *this = other;
+  this->Fraction = first;
+}
+
 FacetHit WorkingSet::Scan(const Vector& to, const ActivePlanes& active)
 {
   if (!this->IsPositionMeasured)
@@ -279,8 +323,16 @@ FacetHit WorkingSet::Scan(const Vector& to, const ActivePlanes& active)
   this->MeasureTarget(to);
   const Vector way = to - this->Position;
   const double wayError = 16.0 * UnitRoundoff * glm::length(way);
-  FacetHit hit;
-  double deepest = HUGE_VAL;
+  // The facets that are met first, all at once as far as that can be known.
+  struct Meeting
+  {
+    std::int32_t Index;
+    double Stop, Slack, There;
+  };
+  std::array<Meeting, LargestNumberAtOnce> meetings;
+  int count = 0;
+  double first = HUGE_VAL;
+  double last = HUGE_VAL;
   for (std::int32_t i = 0; i < this->Count; ++i)
   {
     if (this->TargetDistance[i] >= this->Limit[i])
@@ -293,39 +345,73 @@ FacetHit WorkingSet::Scan(const Vector& to, const ActivePlanes& active)
     const double approach = here - there;
     // Within two clearances is near enough: steps of rounding's size are not worth their check.
     const double stop = here <= 2.0 * clearance ? 0.0 : (here - clearance) / approach;
-    const FacetId id{ this->Index, this->Triangles[i] };
-    // Of facets met at once the one most pressed against, so that the order in which an engine
-    // finds them does not matter.
-    if (stop > hit.Fraction ||
-      (stop == hit.Fraction &&
-        (there > deepest || (there == deepest && id.Triangle > hit.Plane.Facet.Triangle))))
+    const double slack = stop > 0.0 ? (SlackOfHeight * clearance + wayError) / approach : 0.0;
+    if (stop - slack > last)
     {
       continue;
     }
+    const FacetId id{ this->Index, this->Triangles[i] };
     const bool isActive = active.Has(id);
     if (isActive && there > 0.0)
     {
       continue;
     }
-    const auto [a, b, c] = this->CornersOf(id.Triangle);
     const Vector normal = this->FacetNormal(i);
-    const Growth growth = this->GrowthOf(id.Triangle, clearance, wayError);
     const double enter = std::max(0.0, (here - 0.5 * clearance) / approach);
     const double cross = std::clamp(here / approach, 0.0, 1.0);
     const bool meets =
-      (!isActive && CoversGrown(normal, a, b, c, this->Position + enter * way, growth)) ||
-      (there <= 0.0 && CoversGrown(normal, a, b, c, this->Position + cross * way, growth));
-    if (meets)
+      (!isActive &&
+        this->Covers(id, normal, clearance, wayError, this->Position + enter * way, active)) ||
+      (there <= 0.0 &&
+        this->Covers(id, normal, clearance, wayError, this->Position + cross * way, active));
+    if (!meets)
     {
-      deepest = there;
-      hit.Fraction = stop;
-      hit.Plane.Facet = id;
-      hit.Plane.IsFlipped = this->Flipped[i];
-      hit.Plane.Normal = this->ToSurface.VectorToScene(this->Flipped[i] ? -normal : normal);
-      hit.Plane.Anchor = this->ToSurface.PointToScene(a);
-      hit.Plane.Clearance = clearance;
-      hit.Plane.IsFar = this->Covered == Region::Segment;
+      continue;
     }
+    if (stop < first)
+    {
+      first = stop;
+      last = stop + slack;
+    }
+    if (count == LargestNumberAtOnce)
+    {
+      const auto isLate = [last](const Meeting& m) { return m.Stop - m.Slack > last; };
+      const auto end = std::remove_if(meetings.begin(), meetings.end(), isLate);
+      count = std::min(static_cast<int>(end - meetings.begin()), LargestNumberAtOnce - 1);
+    }
+    meetings[count++] = { i, stop, slack, there };
+  }
+  FacetHit hit;
+  const Meeting* chosen = nullptr;
+  for (int k = 0; k < count; ++k)
+  {
+    const Meeting& m = meetings[k];
+    if (m.Stop - m.Slack > last)
+    {
+      continue;
+    }
+    const double same = chosen ? SlackOfHeight * this->Clearance[m.Index] + wayError : 0.0;
+    if (!chosen || m.There < chosen->There - same ||
+      (m.There <= chosen->There + same &&
+        this->Triangles[m.Index] < this->Triangles[chosen->Index]))
+    {
+      chosen = &m;
+    }
+  }
+  if (chosen)
+  {
+    const std::int32_t i = chosen->Index;
+    const std::int32_t triangle = this->Triangles[i];
+    const Vector normal = this->FacetNormal(i);
+    hit.Fraction = first;
+    hit.Slack = chosen->Slack;
+    hit.Depth = -chosen->There - (SlackOfHeight * this->Clearance[i] + wayError);
+    hit.Plane.Facet = { this->Index, triangle };
+    hit.Plane.IsFlipped = this->Flipped[i];
+    hit.Plane.Normal = this->ToSurface.VectorToScene(this->Flipped[i] ? -normal : normal);
+    hit.Plane.Anchor = this->ToSurface.PointToScene(this->CornersOf(triangle).A);
+    hit.Plane.Clearance = this->Clearance[i];
+    hit.Plane.IsFar = this->Covered == Region::Segment;
   }
   return hit;
 }
@@ -408,13 +494,31 @@ void WorkingSet::Move()
   }
 }
 
-bool WorkingSet::Covers(const ActivePlane& plane, const Vector& position) const
+Coverage WorkingSet::CoverageAt(
+  const ActivePlane& plane, const Vector& position, Vector& nearest) const
 {
-  const auto [a, b, c] = this->CornersOf(plane.Facet.Triangle);
   const Vector normal =
     this->ToSurface.VectorToLocal(plane.IsFlipped ? -plane.Normal : plane.Normal);
-  return CoversGrown(normal, a, b, c, this->ToSurface.PointToLocal(position),
-    this->GrowthOf(plane.Facet.Triangle, plane.Clearance, 0.0));
+  const Coverage coverage = this->CoverageAt(plane.Facet.Triangle, normal, plane.Clearance, 0.0,
+    this->ToSurface.PointToLocal(position), nearest);
+  nearest = this->ToSurface.PointToScene(nearest);
+  return coverage;
+}
+
+bool WorkingSet::Covers(
+  const ActivePlane& plane, const Vector& position, const ActivePlanes& planes) const
+{
+  Vector nearest(0.0);
+  const Coverage coverage = this->CoverageAt(plane, position, nearest);
+  return coverage == Coverage::Own ||
+    (coverage == Coverage::Reach && !planes.PassesOver(nearest, plane.Facet));
+}
+
+bool WorkingSet::IsPassedOver(
+  const ActivePlane& plane, const Vector& position, const ActivePlane& other) const
+{
+  Vector nearest(0.0);
+  return this->CoverageAt(plane, position, nearest) == Coverage::Reach && other.PassesOver(nearest);
 }
 
 std::array<double, 3> WorkingSet::CornerWeights(std::int32_t triangle) const

@@ -17,12 +17,19 @@ namespace haptics
 struct FacetHit
 {
   double Fraction = HUGE_VAL; ///< of the motion, 0 to 1; HUGE_VAL: none
+  double Slack = 0.0;         ///< by which rounding may change Fraction
+  double Depth = 0.0;         ///< of the motion's end behind the plane, less the slack of that
   ActivePlane Plane;
   /// No facet: so far nothing can be, and from there the rest is to be looked at. A way from far
   /// out is known too badly to say what it meets.
   bool IsWaypoint = false;
 
   explicit operator bool() const { return this->Fraction <= 1.0; }
+
+  /// Takes the other one in, if it comes first. Of facets met at once the one most pressed against
+  /// counts, and of those the first in the list: so neither the order in which an engine finds them
+  /// nor rounding matters.
+  void Take(const FacetHit& other);
 };
 
 /// @brief The triangles around the god-object, side by side in memory.
@@ -103,8 +110,13 @@ public:
   /// motion.
   Vector CarriedBy(const ActivePlane& plane) const;
 
-  /// Whether the god-object stands over the facet itself, not only over its plane.
-  bool Covers(const ActivePlane& plane, const Vector& position) const;
+  /// Whether the god-object stands over the facet itself, not only over its plane: `planes` are
+  /// those that hold it.
+  bool Covers(const ActivePlane& plane, const Vector& position, const ActivePlanes& planes) const;
+  /// Whether the god-object stands beyond the facet, which reaches there over a gap, and what comes
+  /// along `other` passes over the facet.
+  bool IsPassedOver(
+    const ActivePlane& plane, const Vector& position, const ActivePlane& other) const;
 
   /// How much each corner of a triangle counts where the god-object stands over it: >= 0, sum 1.
   std::array<double, 3> CornerWeights(std::int32_t triangle) const;
@@ -158,7 +170,11 @@ private:
   bool FindSwept(const Vector& to, WorkBudget& budget, FacetHit& hit);
   bool Sweeps(std::int32_t triangle, const Vector& to, FacetHit& hit) const;
   void MoveSwept();
-  Growth GrowthOf(std::int32_t triangle, double clearance, double wayError) const;
+  Coverage CoverageAt(std::int32_t triangle, const Vector& normal, double clearance,
+    double wayError, const Vector& x, Vector& nearest) const;
+  bool Covers(const FacetId& facet, const Vector& normal, double clearance, double wayError,
+    const Vector& x, const ActivePlanes& planes) const;
+  Coverage CoverageAt(const ActivePlane& plane, const Vector& position, Vector& nearest) const;
   Vector FacetNormal(std::int32_t i) const
   {
     const Vector n{ this->NormalX[i], this->NormalY[i], this->NormalZ[i] };

@@ -1,0 +1,251 @@
+// What is in plain view is reached: nothing holds the god-object where nothing is. In the drawings
+// o is the god-object and x the haptic interface point (HIP). Lengths are metres.
+#include "AnalyticSurfaces.h"
+#include "ExactQueries.h"
+#include "GodObject.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace haptics;
+using namespace haptics::testing;
+
+namespace
+{
+using SurfacePointer = std::shared_ptr<const TriangleSurface>;
+constexpr double Degree = 3.14159265358979323846 / 180.0;
+
+TriangleMesh BoxFrom(const Vec3& low, const Vec3& high)
+{
+  const Vec3 half = 0.5 * (high - low);
+  return Moved(Box(half[0], half[1], half[2]), 0.5 * (low + high));
+}
+
+/// Whether nothing that can be touched lies between the god-object and the HIP, nor between it and
+/// places around the HIP: a cone of a thousandth. Exact.
+bool IsInPlainView(const GodObject& god, const Vec3& hip)
+{
+  const Vec3 way = god.Current().Position - hip;
+  const Vec3 u =
+    Unit(Cross(way, std::abs(way[0]) < std::abs(way[1]) ? Vec3{ 1, 0, 0 } : Vec3{ 0, 1, 0 }));
+  const Vec3 v = Unit(Cross(way, u));
+  for (std::size_t i = 0; i < god.Surfaces().size(); ++i)
+  {
+    const auto& surface = god.Surfaces()[i].Surface;
+    const ExactQueries exact(surface);
+    const Vec3 from = god.LocalPosition(static_cast<int>(i));
+    const Vec3 to = hip - surface->Origin();
+    if (exact.Crosses(from, to))
+    {
+      return false;
+    }
+    for (int k = 0; k < 6; ++k)
+    {
+      const double angle = 60.0 * Degree * k;
+      const Vec3 beside = 0.001 * Length(way) * (std::cos(angle) * u + std::sin(angle) * v);
+      if (exact.Crosses(from, to + beside))
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+/// A prism along z whose edge at the origin points to +x.
+TriangleMesh Wedge(double degrees)
+{
+  const double s = std::sin(0.5 * degrees * Degree);
+  const double c = std::cos(0.5 * degrees * Degree);
+  TriangleMesh mesh;
+  mesh.Points = { { 0, 0, 0 }, { -c, s, 0 }, { -c, -s, 0 }, { 0, 0, 1 }, { -c, s, 1 },
+    { -c, -s, 1 } };
+  mesh.Triangles = { { 0, 2, 1 }, { 3, 4, 5 }, { 0, 1, 4 }, { 0, 4, 3 }, { 0, 5, 2 }, { 0, 3, 5 },
+    { 1, 2, 5 }, { 1, 5, 4 } };
+  return mesh;
+}
+
+/// A hand slides along x at a depth of 0.2 mm under z = 0, from -14 mm to 14 mm: the greatest
+/// sideways displacement of the god-object from it, in contact.
+double LargestDrag(const std::vector<TouchedSurface>& surfaces, double y = 0.001)
+{
+  GodObject god(surfaces);
+  god.Place({ -0.014, y, 0.005 });
+  double drag = 0.0;
+  for (int i = 0; i <= 560; ++i)
+  {
+    const Contact& contact = god.Update({ -0.014 + 5e-5 * i, y, -0.0002 });
+    EXPECT_EQ(contact.Status, UpdateStatus::Touching);
+    drag = std::max(drag, std::hypot(contact.Displacement[0], contact.Displacement[1]));
+  }
+  return drag;
+}
+
+std::vector<TouchedSurface> AsOne(const std::vector<TriangleMesh>& parts, Side side)
+{
+  TriangleMesh all = parts.front();
+  for (std::size_t i = 1; i < parts.size(); ++i)
+  {
+    all = Joined(all, parts[i]);
+  }
+  return { MakeSurface(all, side) };
+}
+
+std::vector<TouchedSurface> AsSeveral(const std::vector<TriangleMesh>& parts, Side side)
+{
+  std::vector<TouchedSurface> surfaces;
+  for (const TriangleMesh& part : parts)
+  {
+    surfaces.emplace_back(MakeSurface(part, side));
+  }
+  return surfaces;
+}
+}
+
+//   o ------> o
+//  ____|   |____      however narrow the slot is that is crossed in one tick
+//    x |   |  x
+TEST(PlainView, ASlotCrossedInOneTickDoesNotHold)
+{
+  for (const Side side : { Side::Front, Side::Both })
+  {
+    const double clearance = 1024.0 * 0x1p-53;
+    for (const double width : { 10.0 * clearance, 1e3 * clearance, 1e-9, 1e-6, 1e-3, 0.02, 0.2 })
+    {
+      const std::vector<TriangleMesh> parts{ BoxFrom(
+                                               { -0.5, -0.5, -0.1 }, { -0.5 * width, 0.5, 0.1 }),
+        BoxFrom({ 0.5 * width, -0.5, -0.1 }, { 0.5, 0.5, 0.1 }) };
+      for (const auto& surfaces : { AsOne(parts, side), AsSeveral(parts, side) })
+      {
+        for (const double x : { 0.4, 0.2, 0.12, 0.5 * width + 0.002 })
+        {
+          GodObject god(surfaces);
+          god.Place({ -x, 0.01, 0.2 });
+          god.Update({ -x, 0.01, 0.05 });
+          god.Update({ x, 0.01, 0.05 });
+          const Contact& contact = god.Update({ x, 0.01, 0.05 });
+          EXPECT_LT(Length(contact.Displacement - Vec3{ 0, 0, 0.05 }), 1e-9)
+            << "width " << width << ", x " << x;
+        }
+      }
+    }
+  }
+}
+
+//   \  o        pressed head-on, then around the edge: once it is in the open, it is free
+//    > x
+//   /
+TEST(PlainView, AConvexEdgeOfAnyAngleHoldsNothingInTheOpen)
+{
+  for (const double scale : { 1.0, 1e-6, 1e6 })
+  {
+    for (const double degrees : { 0.5, 1.0, 5.0, 10.0, 20.0, 28.0, 28.1, 40.0, 60.0, 80.0, 90.0,
+           100.0, 140.0, 152.0, 170.0, 179.0 })
+    {
+      const auto surface = [&](Side side)
+      { return MakeSurface(Scaled(Wedge(degrees), scale), side); };
+      for (const Side side : { Side::Front, Side::Both })
+      {
+        GodObject god({ surface(side) });
+        god.Place({ 0.3 * scale, 0, 0.47 * scale });
+        for (int k = 1; k <= 30; ++k)
+        {
+          god.Update({ (0.3 - 0.32 * k / 30.0) * scale, 0, 0.47 * scale });
+        }
+        for (int k = 0; k < 180; ++k)
+        {
+          const double angle = k * Degree;
+          const Vec3 hip{ -0.02 * std::cos(angle) * scale, -0.02 * std::sin(angle) * scale,
+            0.47 * scale };
+          god.Update(hip);
+          const Contact& contact = god.Update(hip);
+          EXPECT_TRUE(contact.Penetration < 1e-9 * scale || !IsInPlainView(god, hip))
+            << degrees << " degrees, at " << k << ", side " << static_cast<int>(side);
+        }
+      }
+    }
+  }
+}
+
+//      -> o            flush: nothing is felt of the seam, be it one surface or several, one part
+//  _______|_______     into the other or not, or the one that is slid to a little lower
+//         |  x
+TEST(PlainView, AFlushSeamOfSolidsIsNotFelt)
+{
+  for (const double overlap : { 0.0, 0.001 })
+  {
+    for (const double lower : { 0.0, 1e-12, 1e-9, 1e-8, 1e-7, 1e-6 })
+    {
+      for (const double tilt : { 0.0, 0.003 })
+      {
+        TriangleMesh right = BoxFrom({ -overlap, -0.01, -0.02 - lower }, { 0.02, 0.01, -lower });
+        for (Vec3& p : right.Points)
+        {
+          p[0] += tilt * p[1];
+        }
+        const std::vector<TriangleMesh> parts{
+          BoxFrom({ -0.02, -0.02, -0.02 }, { overlap, 0.02, 0 }), right
+        };
+        for (const Side side : { Side::Front, Side::Both })
+        {
+          // Where both sides are touched a wall that stands in the other solid is in nobody's way.
+          EXPECT_LT(LargestDrag(AsOne(parts, side)), 1e-9) << overlap << ", " << lower;
+          EXPECT_LT(LargestDrag(AsSeveral(parts, side)), 1e-9) << overlap << ", " << lower;
+        }
+      }
+    }
+  }
+}
+
+//   ___|____         three parts that meet in a T, and four in a cross: over the point where they
+//      |   x         meet, beside it and along the seams
+//   ___|____
+TEST(PlainView, WhereThreeOrFourFlushPartsMeetNothingIsFelt)
+{
+  const TriangleMesh half = BoxFrom({ -0.02, -0.02, -0.02 }, { 0, 0.02, 0 });
+  const TriangleMesh first = BoxFrom({ 0, -0.02, -0.02 }, { 0.02, 0, 0 });
+  const TriangleMesh second = BoxFrom({ 0, 0, -0.02 }, { 0.02, 0.02, 0 });
+  const TriangleMesh third = BoxFrom({ -0.02, -0.02, -0.02 }, { 0, 0, 0 });
+  const TriangleMesh fourth = BoxFrom({ -0.02, 0, -0.02 }, { 0, 0.02, 0 });
+  const std::vector<std::vector<TriangleMesh>> tables{ { half, first, second },
+    { second, half, first }, { third, first, second, fourth }, { second, fourth, third, first } };
+  for (const auto& parts : tables)
+  {
+    for (const Side side : { Side::Front, Side::Both })
+    {
+      for (const double y : { 0.0, 1e-15, -1e-15, 1e-12, 1e-6, 0.003, -0.003 })
+      {
+        EXPECT_LT(LargestDrag(AsOne(parts, side), y), 1e-9) << y;
+        EXPECT_LT(LargestDrag(AsSeveral(parts, side), y), 1e-9) << y;
+      }
+    }
+  }
+}
+
+//  =----o        beside the tip of a needle, however fine it is, the way is free
+//       x
+TEST(PlainView, ANeedleEndsAtItsTip)
+{
+  for (const double halfWidth : { 5e-2, 5e-3, 5e-4, 5e-5, 5e-6 })
+  {
+    TriangleMesh needle;
+    needle.Points = { { 0, 0, 0 }, { 1, halfWidth, 0 }, { 1, -halfWidth, 0 } };
+    needle.Triangles = { { 0, 2, 1 } };
+    for (const Side side : { Side::Front, Side::Both })
+    {
+      const auto surface = MakeSurface(needle, side);
+      for (const double x : { 1e-5, 1e-4, 1e-3, 1e-2, 5e-2, 0.2 })
+      {
+        GodObject god({ surface });
+        god.Place({ -x, 0, 0.1 });
+        EXPECT_EQ(god.Update({ -x, 0, -0.05 }).Status, UpdateStatus::Free)
+          << halfWidth << ", " << x;
+      }
+      GodObject god({ surface });
+      god.Place({ 1e-9 / halfWidth, 0, 0.1 });
+      EXPECT_EQ(god.Update({ 1e-9 / halfWidth, 0, -0.05 }).Status, UpdateStatus::Touching);
+    }
+  }
+}
