@@ -127,6 +127,16 @@ protected:
         return false;
       });
   }
+  /// Lets the device do what a line says, counted from the next packet.
+  void PlayFromHere(Act act, int port = 1)
+  {
+    this->Bus.With(port,
+      [act](FalconModel& model) mutable
+      {
+        act.Nth += model.Served;
+        model.Script = { act };
+      });
+  }
   bool EndsWithoutForce(int port = 1)
   {
     return this->LastCommand(port).Torques == std::array<std::int16_t, 3>{};

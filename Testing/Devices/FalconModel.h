@@ -75,6 +75,7 @@ struct FalconModel
   std::vector<std::uint8_t> Firmware;           ///< of the last upload
   int Uploads = 0;
   int BadPackets = 0;
+  int Served = 0; ///< packets since it was homed
   ///@}
 
   struct Answer
@@ -121,7 +122,6 @@ private:
   bool Jammed = false;
   int Chunks = 0;
   int Probes = 0;
-  int Served = 0;
   int HomingPackets = 0;
   std::uint8_t Homed = 0;
   std::vector<std::uint8_t> Incoming;
