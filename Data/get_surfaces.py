@@ -35,83 +35,79 @@ class Surface:
     about: str
     licence: str
     package: str  # "apt:NAME", or "pip:NAME==VERSION"
-    files: dict  # path inside the package -> SHA-256 of its content, gunzipped where it ends in .gz
+    files: dict  # name of a file, wherever in the package, to the SHA-256 of its content, gunzipped
     suffix: str  # of the file that is made
     member: str = ""  # pattern of a file inside the file, which is then an archive
     convert: object = None  # from the list of contents to the bytes to write; None: as it is
 
 
-FSAVERAGE = "nilearn/datasets/data/fsaverage5/"
-GMSH = "usr/share/doc/gmsh-doc/doc/gmsh/"
-OCCT = "usr/share/opencascade/data/stl/"
-
 SURFACES = {
     "gearbox": Surface(
         "CAD: 26,966 triangles, watertight, genus 22",
         "LGPL-2.1 with the Open CASCADE exception", "apt:occt-misc",
-        {OCCT + "TR12J_OCC.stl":
+        {"TR12J_OCC.stl":
          "c7204731e8202f9f8f19192f95699429d7912e4dfc6a44802ebe30693c1895b7"}, ".stl"),
     "propeller": Surface(
         "CAD, bad: 7,374 triangles, 12 flipped edges, slivers",
         "LGPL-2.1 with the Open CASCADE exception", "apt:occt-misc",
-        {OCCT + "propeller.stl":
+        {"propeller.stl":
          "290e3da717cfcb0cc8130581863089104ab598b2cae5cd61912bbb309c1f14d2"}, ".stl"),
     "motor": Surface(
         "CAD, bad: 13,502 triangles, non-manifold, intersecting itself, duplicates",
         "LGPL-2.1 with the Open CASCADE exception", "apt:occt-misc",
-        {OCCT + "motor.stl":
+        {"motor.stl":
          "4744ffc0230e3bf308660c840276b39b43a55e460e87e3fa81705f8de2e135d6"}, ".stl"),
     "aneurysm": Surface(
         "medical: vessel, 20,294 triangles, 3 openings [mm]",
         "GPL-2+", "apt:gmsh-doc",
-        {GMSH + "demos/api/aneurysm_data.stl.gz":
+        {"aneurysm_data.stl.gz":
          "1615f9774dd03c916283ebb38f3440de3042718281e87036ed73b650086eae3a"}, ".stl"),
     "t13": Surface(
         "CAD, small: thin sheet, 1,580 triangles, watertight, genus 2",
         "GPL-2+", "apt:gmsh-doc",
-        {GMSH + "tutorial/t13_data.stl.gz":
+        {"t13_data.stl.gz":
          "4b9431c0dddde5b7e4f6b09506443c7ae1e3134646e2a9447e09a77379fdbd70"}, ".stl"),
     "wing": Surface(
         "CAD, thin: 842 triangles, watertight, slivers",
         "GPL-2", "apt:openscad-testing-data",
-        {"usr/share/openscad/testdata/scad/misc/bad-stl-wing.stl":
+        {"bad-stl-wing.stl":
          "fe0a6209a41adfcb8c848c1aa3bc1bbdd4fc10f31db253dc52ab51007e2fe4a0"}, ".stl"),
     "cranium": Surface(
         "medical: CT of a head, 399,757 triangles in strips, 148 components [mm]",
         "GPL-2", "apt:invesalius-examples",
-        {"usr/share/doc/invesalius-examples/examples/Cranium.inv3":
+        {"Cranium.inv3":
          "4ce3f2a438b8b654c24ee247ce1d5f1040447bf56ec44b0e626e85aeed9b4052"}, ".vtp",
         member="*/surface_0.vtp"),
     "footbones": Surface(
         "medical: 4,204 triangles, 26 closed parts that touch",
         "see the copyright file of Debian's libcgal-demo", "apt:libcgal-demo",
-        {"usr/share/doc/libcgal-dev/data.tar.gz":
+        {"data.tar.gz":
          "004bd26f0029910eb2e2fd38b7ca11ea05dd4182e247c0fb778533b860dd7ab2"}, ".vtp",
         member="data/meshes/bones.off", convert=surface_formats.off_to_vtp),
     "pial": Surface(
         "medical: cortex, 20,480 triangles, watertight; arrays Sulc, Curv, Thickness, Area",
         "package BSD-3-Clause; that of the data is not stated", "pip:nilearn==0.14.1",
-        {FSAVERAGE + "pial_left.gii.gz":
+        {"pial_left.gii.gz":
          "b425b4914362af4aaf43bb5d022afd39a0c5f6ec4601e353631cdd737884c951",
-         FSAVERAGE + "sulc_left.gii.gz":
+         "sulc_left.gii.gz":
          "909eb125283cbd9e72ff30534d1ccfee8786355af00380747abd522ee87f1a92",
-         FSAVERAGE + "curv_left.gii.gz":
+         "curv_left.gii.gz":
          "8f54412d57bf66559a2f73d71e1d83fe542b78db5d3446a55560ecf535fa8794",
-         FSAVERAGE + "thick_left.gii.gz":
+         "thick_left.gii.gz":
          "d77530db4e8df27b9532d8bf0e947b78df89b9c1c2edceac2587541835b93321",
-         FSAVERAGE + "area_left.gii.gz":
+         "area_left.gii.gz":
          "fdc126f4ad8d0c30ead5b8c5ab4d8ae65c59d66f2c697c2221ecd248ecfcae68"}, ".vtp",
         convert=surface_formats.gifti_to_vtp),
     "fault": Surface(
         "terrain: 275,772 triangles, about 30 km x 32 km x 840 m, open; array Elevation [m]",
         "that of Matplotlib (PSF-like)", "pip:matplotlib",
-        {"matplotlib/mpl-data/sample_data/jacksboro_fault_dem.npz":
+        {"jacksboro_fault_dem.npz":
          "d493f50a33e82a4420494c54d1fca1539d177bdc27ab190bc5fe6e92f62fb637"}, ".vtp",
         convert=surface_formats.heights_to_vtp),
     "frog": Surface(
         "medical, large: tissues of a frog, 1,514,708 triangles, 617 components",
         "MIT (package)", "pip:pyvista==0.49.1",
-        {"pyvista/examples/frog_tissues.vti":
+        {"frog_tissues.vti":
          "844e3e324548fcebab4e14fa30be1400d34fafa7a0a14030b643b38db89da66c"}, ".vtp",
         convert=surface_formats.image_to_vtp),
 }
@@ -132,12 +128,16 @@ def run(command, folder):
         raise Unavailable(f"'{' '.join(command)}' took longer than ten minutes") from None
     if done.returncode != 0:
         last = (done.stdout.strip().splitlines() or ["no message"])[-1]
-        raise Unavailable(f"'{' '.join(command)}' failed: {last}")
+        raise Unavailable(f"'{' '.join(command)}' failed: {last}. Is the package registry in reach? "
+                          "For a Debian package, 'apt-get update' as root may help")
 
 
 def download(package, folder):
     """Leaves one package file in the folder and returns its path."""
     kind, name = package.split(":", 1)
+    if kind == "pip" and not importlib.util.find_spec("pip"):
+        raise Unavailable(f"it comes from PyPI, and {sys.executable} has no pip. Install it "
+                          "(Debian: python3-pip)")
     say(f"Downloading the {'Debian' if kind == 'apt' else 'PyPI'} package {name}")
     if kind == "apt":
         run(["apt-get", "download", name], folder)
@@ -147,20 +147,15 @@ def download(package, folder):
     return next(pathlib.Path(folder).iterdir())
 
 
-def read_files(package_file, paths, folder):
-    """Contents of the named files of a .deb or a wheel."""
+def unpack(package_file, folder):
+    """Unpacks a .deb or a wheel, and returns where."""
+    unpacked = pathlib.Path(folder, "unpacked")
     if package_file.suffix == ".deb":
-        run(["dpkg-deb", "-x", str(package_file), "unpacked"], folder)
-        unpacked = pathlib.Path(folder, "unpacked")
-        missing = [path for path in paths if not (unpacked / path).is_file()]
-        if not missing:
-            return [(unpacked / path).read_bytes() for path in paths]
+        run(["dpkg-deb", "-x", str(package_file), str(unpacked)], folder)
     else:
         with zipfile.ZipFile(package_file) as wheel:
-            missing = [path for path in paths if path not in wheel.namelist()]
-            if not missing:
-                return [wheel.read(path) for path in paths]
-    raise Unavailable(f"{package_file.name} has no {missing[0]}: another version of the package")
+            wheel.extractall(unpacked)
+    return unpacked
 
 
 def read_member(content, pattern):
@@ -172,19 +167,30 @@ def read_member(content, pattern):
 
 
 def fetch(surface, folder):
-    """Checked contents of the files of a surface."""
+    """Contents of the files of a surface, found by name and checked by their SHA-256.
+
+    By name alone, as packages move their files from one release to the next.
+    """
     package_file = download(surface.package, folder)
+    unpacked = unpack(package_file, folder)
     contents = []
-    for path, content in zip(surface.files, read_files(package_file, surface.files, folder)):
-        if surface.member:
-            content = read_member(content, surface.member)
-        if path.endswith(".gz") and not surface.member:
-            content = gzip.decompress(content)
-        found = hashlib.sha256(content).hexdigest()
-        if found != surface.files[path]:
-            raise Unavailable(f"{path} of {package_file.name} has the SHA-256 {found}, "
-                              f"not {surface.files[path]}: not the file that this project knows")
-        contents.append(content)
+    for name, expected in surface.files.items():
+        found = []
+        for path in sorted(p for p in unpacked.rglob(name) if p.is_file()):
+            content = path.read_bytes()
+            if surface.member:
+                content = read_member(content, surface.member)
+            elif name.endswith(".gz"):
+                content = gzip.decompress(content)
+            found.append(hashlib.sha256(content).hexdigest())
+            if found[-1] == expected:
+                contents.append(content)
+                break
+        else:
+            raise Unavailable(
+                f"{package_file.name}, another version of the package, has {name} with the SHA-256 "
+                f"{', '.join(found)} instead of {expected}" if found else
+                f"{package_file.name}, another version of the package, has no {name}")
     return contents
 
 
@@ -222,14 +228,13 @@ def parse_arguments():
         "Needs NumPy and VTK's Python modules for all but plain STL files: a Python that lacks\n"
         f"them hands over to {SYSTEM_PYTHON}.\n\n"
         "Exit status: 0 done, 1 a module is missing or the folder cannot be written, 2 wrong\n"
-        "arguments, 3 a surface could not be had (--no-fallback); the others were got.")
+        "arguments, 3 a surface could not be had; the others were got.")
     parser.add_argument("names", nargs="*", metavar="NAME", help="surfaces; 'all' for every one")
     parser.add_argument("--list", action="store_true", help="name the surfaces and their licences")
     parser.add_argument("--output", type=pathlib.Path, default=DEFAULT_FOLDER, metavar="DIR",
                         help="where they go (default: build/surfaces of this project)")
-    parser.add_argument("--no-fallback", action="store_true",
-                        help="where a surface cannot be had, get the others and fail, instead of "
-                        "making one")
+    parser.add_argument("--fallback", action="store_true",
+                        help="where a surface cannot be had, make one of this project's own instead")
     arguments = parser.parse_args()
     unknown = [name for name in arguments.names if name not in SURFACES and name != "all"]
     if unknown:
@@ -258,8 +263,7 @@ def get_all(names, folder, fallback):
             if not fallback:
                 status = 3
                 continue
-            say("Instead, here is a surface of this project's own, a knot. To get the real one, "
-                "make the package registries reachable ('apt-get update' as root may help).")
+            say("Instead, here is a surface of this project's own, a knot.")
             print(get_fallback(folder), flush=True)
     return status
 
@@ -273,7 +277,7 @@ def main():
     hand_over()
     names = SURFACES if "all" in arguments.names else arguments.names
     try:
-        return get_all(names, arguments.output.resolve(), not arguments.no_fallback)
+        return get_all(names, arguments.output.resolve(), arguments.fallback)
     except ImportError as error:
         say(f"get_surfaces.py: {error}. It needs NumPy and VTK's Python modules (Debian: "
             "python3-numpy, and python3-vtk9 or python3-paraview): install them, and run it with "

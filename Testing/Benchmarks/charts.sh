@@ -41,7 +41,7 @@ if [ -z "$draw" ]; then
     exit 1
   fi
   surfaces=$build/surfaces
-  /usr/bin/python3 "$root/Data/get_surfaces.py" --no-fallback --output "$surfaces" \
+  /usr/bin/python3 "$root/Data/get_surfaces.py" --output "$surfaces" \
     t13 gearbox pial fault >/dev/null ||
     echo "Some real surfaces could not be had: the tables will be without them." >&2
 

@@ -17,7 +17,7 @@ fi
 # The frog's 1.5 million triangles; without a registry in reach that one stroke is left out.
 HAPTICS_SURFACES=${HAPTICS_SURFACES:-$build/surfaces}
 export HAPTICS_SURFACES
-/usr/bin/python3 "$root/Data/get_surfaces.py" --no-fallback --output "$HAPTICS_SURFACES" frog >&2 ||
+/usr/bin/python3 "$root/Data/get_surfaces.py" --output "$HAPTICS_SURFACES" frog >&2 ||
   echo "The frog could not be had." >&2
 
 head=$(mktemp)

@@ -65,8 +65,7 @@ def main(name, folder, baseline, output):
     file, values, eye, up, start, end = CASES[name]
     path = os.path.join(folder, file)
     if not os.path.isfile(path):
-        print(f"skipped: {path} is not there. Data/get_surfaces.py gets it from a package "
-              "registry, which was out of reach.")
+        print(f"skipped: {file} could not be had: the test RealSurfaces.Get says why.")
         return SKIPPED
     surface = read_surface(path)
     actor = surface_actor(surface)

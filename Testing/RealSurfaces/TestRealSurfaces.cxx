@@ -48,8 +48,7 @@ protected:
     const std::string path = PathOf(GetParam());
     if (path.empty())
     {
-      GTEST_SKIP() << GetParam().File << " could not be got: are the package registries in reach? "
-                   << "'python3 Data/get_surfaces.py' with its name tells more.";
+      GTEST_SKIP() << GetParam().File << " could not be had: the test RealSurfaces.Get says why.";
     }
     this->Input = Read(path);
     ASSERT_TRUE(this->Input) << path;
