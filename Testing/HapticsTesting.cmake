@@ -17,6 +17,24 @@ set(haptics_test_environment
   "HAPTICS_SOURCE_DIR=${PROJECT_SOURCE_DIR}"
   "HAPTICS_TEST_OUTPUT=${_vtk_build_TEST_OUTPUT_DIRECTORY}")
 
+# Sets a variable to the programs and libraries of a folder and those below it.
+function (haptics_targets_below result folder)
+  get_property(targets DIRECTORY "${folder}" PROPERTY BUILDSYSTEM_TARGETS)
+  set(found)
+  foreach (target IN LISTS targets)
+    get_target_property(type "${target}" TYPE)
+    if (NOT type STREQUAL "UTILITY" AND NOT type STREQUAL "INTERFACE_LIBRARY")
+      list(APPEND found "${target}")
+    endif ()
+  endforeach ()
+  get_property(subfolders DIRECTORY "${folder}" PROPERTY SUBDIRECTORIES)
+  foreach (subfolder IN LISTS subfolders)
+    haptics_targets_below(below "${subfolder}")
+    list(APPEND found ${below})
+  endforeach ()
+  set("${result}" "${found}" PARENT_SCOPE)
+endfunction ()
+
 function (haptics_add_gtest name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "SERIAL" "FIXTURE" "LIBRARIES")
   set(fixture)

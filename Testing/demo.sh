@@ -12,7 +12,8 @@ is a display, off screen where there is none. Leaves in DIR a picture (.png) and
 point a tick), and prints a table of what was measured.
 
   --surface   a name out of "python3 Data/get_surfaces.py --list", or a file (STL, PLY, OBJ, VTP,
-              VTK); default: gearbox, a CAD model
+              VTK); default: gearbox, a CAD model, or a knot of this project's own where the gearbox
+              cannot be had
   --output    default: build/demo
   --offscreen open no window
   --vtk       against VTK alone, without the ParaView plugin (see Testing/setup.sh --help)
@@ -22,7 +23,7 @@ END
 here=$PWD
 cd "$(dirname "$0")/.."
 setup_arguments=
-surface=gearbox
+surface=
 output=build/demo
 offscreen=
 from_here() { case $1 in /*) echo "$1" ;; *) echo "$here/$1" ;; esac; }
@@ -55,6 +56,10 @@ sh Testing/setup.sh $setup_arguments
 
 case $surface in
   /*) ;;
+  '')
+    echo "==> Getting the surface 'gearbox'"
+    surface=$(/usr/bin/python3 Data/get_surfaces.py --fallback gearbox)
+    ;;
   *)
     echo "==> Getting the surface '$surface'"
     surface=$(/usr/bin/python3 Data/get_surfaces.py "$surface")

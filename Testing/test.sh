@@ -8,7 +8,7 @@ usage()
 Usage: sh Testing/test.sh [--vtk] [--slow] [--help] [CTEST-ARGUMENT...]
 
 Installs what is missing, builds into build/ and runs the tests, on a virtual display where there is
-none. Further arguments go to ctest: "-R Core" runs the tests with Core in their name.
+none; names at the end what was skipped, and why. Further arguments go to ctest: "-R Core" runs the tests with Core in their name.
 
   --vtk   against VTK alone, without the ParaView plugin (see Testing/setup.sh --help)
   --slow  the slow tests too: the USB driver against a real kernel in a virtual machine
@@ -40,7 +40,7 @@ for argument; do
   esac
 done
 
-sh Testing/setup.sh $setup_arguments
+sh Testing/setup.sh --tests $setup_arguments
 
 # Open MPI, which pvserver and pvpython start, refuses to run as root (as in a container) unless told.
 if [ "$(id -u)" -eq 0 ]; then
@@ -58,8 +58,11 @@ fi
 
 echo "==> Testing${display:+ on a virtual display}"
 status=0
+report=build/Testing/report.xml
+rm -f "$report"
 eval "$display" ctest --test-dir build --output-on-failure --no-label-summary --no-tests=error \
-  -j "$(nproc)" $configuration '"$@"' || status=$?
+  -j "$(nproc)" --output-junit "$PWD/$report" $configuration '"$@"' || status=$?
+[ ! -f "$report" ] || /usr/bin/python3 Testing/list_skips.py "$report"
 if [ "$status" -ne 0 ]; then
   echo "==> Tests failed; all output: build/Testing/Temporary/LastTest.log" >&2
 fi

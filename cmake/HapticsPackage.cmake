@@ -17,22 +17,23 @@ install(
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE"
   DESTINATION "${CMAKE_INSTALL_DATAROOTDIR}/doc/vtkhaptics")
 
+# env.sh, in the build folder and installed. The prefix may be chosen as late as in
+# `cmake --install`, so that the installed one is made there from half-filled text.
+set(haptics_env_plugin)
 if (HAPTICS_BUILD_PARAVIEW_PLUGIN)
-  set(haptics_plugin_dir "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}/${PARAVIEW_PLUGIN_SUBDIR}/Haptics")
+  string(CONCAT haptics_env_plugin "export PV_PLUGIN_PATH=\"$haptics_prefix/"
+    "${CMAKE_INSTALL_LIBDIR}/${PARAVIEW_PLUGIN_SUBDIR}/Haptics"
+    "\${PV_PLUGIN_PATH:+:$PV_PLUGIN_PATH}\"\n")
 endif ()
+set(haptics_prefix "${CMAKE_BINARY_DIR}")
+set(haptics_env_to_prefix ".")
 configure_file("${CMAKE_CURRENT_LIST_DIR}/env.sh.in" "${CMAKE_BINARY_DIR}/env.sh" @ONLY)
-
-# The same for what is installed, whose prefix may be chosen as late as in `cmake --install`.
-set(haptics_installed_plugin)
-if (HAPTICS_BUILD_PARAVIEW_PLUGIN)
-  set(haptics_installed_plugin "\${CMAKE_LIBRARY_OUTPUT_DIRECTORY}/${PARAVIEW_PLUGIN_SUBDIR}/Haptics")
-endif ()
+set(haptics_prefix "@CMAKE_INSTALL_PREFIX@")
+set(haptics_env_to_prefix "../..")
+configure_file(
+  "${CMAKE_CURRENT_LIST_DIR}/env.sh.in" "${CMAKE_BINARY_DIR}/installed/env.sh.in" @ONLY)
 install(CODE "
-  set(CMAKE_RUNTIME_OUTPUT_DIRECTORY \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_BINDIR}\")
-  set(CMAKE_LIBRARY_OUTPUT_DIRECTORY \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_LIBDIR}\")
-  set(haptics_python_dir \"\${CMAKE_INSTALL_PREFIX}/${haptics_python_destination}\")
-  set(haptics_plugin_dir \"${haptics_installed_plugin}\")
   configure_file(
-    \"${CMAKE_CURRENT_LIST_DIR}/env.sh.in\" \"${CMAKE_BINARY_DIR}/installed/env.sh\" @ONLY)")
+    \"${CMAKE_BINARY_DIR}/installed/env.sh.in\" \"${CMAKE_BINARY_DIR}/installed/env.sh\" @ONLY)")
 install(FILES "${CMAKE_BINARY_DIR}/installed/env.sh"
   DESTINATION "${CMAKE_INSTALL_DATAROOTDIR}/vtkhaptics")
