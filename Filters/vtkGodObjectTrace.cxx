@@ -2,27 +2,24 @@
 
 #include "ErrorText.h"
 #include "NumberSetting.h"
+#include "TraceRecorder.h"
 #include "vtkGodObjectFilter.h"
 #include "vtkHapticProperties.h"
 
-#include "ForceModel.h"
+#include "ContactTick.h"
 #include "GodObject.h"
 #include "SurfaceForce.h"
 
 #include "vtkAlgorithmOutput.h"
-#include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCommand.h"
 #include "vtkDataArray.h"
-#include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
-#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
@@ -32,43 +29,6 @@
 namespace
 {
 constexpr vtkIdType TicksPerProgress = 1024;
-
-template <typename Array>
-vtkSmartPointer<Array> NewArray(const char* name, int components, vtkIdType tuples)
-{
-  auto array = vtkSmartPointer<Array>::New();
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(tuples);
-  return array;
-}
-
-/// The constraint that pushes most against the HIP, of those of a touching contact.
-const haptics::Constraint& StrongestConstraint(const haptics::Contact& contact)
-{
-  const auto push = [&contact](const haptics::Constraint& constraint)
-  {
-    const haptics::Vec3& n = constraint.Normal;
-    const haptics::Vec3& d = contact.Displacement;
-    return n[0] * d[0] + n[1] * d[1] + n[2] * d[2];
-  };
-  return *std::max_element(contact.Constraints.begin(),
-    contact.Constraints.begin() + contact.NumberOfConstraints,
-    [&push](const haptics::Constraint& a, const haptics::Constraint& b)
-    { return push(a) < push(b); });
-}
-
-haptics::Vec3 Scaled(const haptics::Vec3& v, double scale)
-{
-  return { scale * v[0], scale * v[1], scale * v[2] };
-}
-
-/// What a hand that went from the last HIP to this one has put in against a force [J].
-double Work(const haptics::Vec3& force, const haptics::Vec3& from, const haptics::Vec3& to)
-{
-  return -force[0] * (to[0] - from[0]) - force[1] * (to[1] - from[1]) -
-    force[2] * (to[2] - from[2]);
-}
 
 /// The vtkGodObjectFilter whose output reaches the port unchanged, or null. ParaView puts a
 /// vtkPVPostFilter, which passes points and cells on, behind every filter. One that has several
@@ -269,30 +229,19 @@ int vtkGodObjectTrace::RequestData(
 void vtkGodObjectTrace::Replay(vtkPolyData* path, vtkGodObjectFilter* prepared, vtkPolyData* output)
 {
   const vtkIdType ticks = path->GetNumberOfPoints();
-  auto positions = NewArray<vtkDoubleArray>("Points", 3, ticks);
-  auto hips = NewArray<vtkDoubleArray>("HapticInterfacePoint", 3, ticks);
-  auto forces = NewArray<vtkDoubleArray>("Force", 3, ticks);
-  auto constraints = NewArray<vtkIntArray>("ActiveConstraints", 1, ticks);
-  auto cells = NewArray<vtkIdTypeArray>("OriginalCellId", 1, ticks);
-  auto penetrations = NewArray<vtkDoubleArray>("Penetration", 1, ticks);
-  vtkIdTypeArray* originalCells = vtkIdTypeArray::SafeDownCast(
+  vtkIdTypeArray* const originalCells = vtkIdTypeArray::SafeDownCast(
     prepared->GetOutput()->GetCellData()->GetAbstractArray("OriginalCellId"));
-
-  auto stiffnesses = NewArray<vtkDoubleArray>("Stiffness", 1, ticks);
-  auto energies = NewArray<vtkDoubleArray>("Energy", 1, ticks);
-  auto tanks = NewArray<vtkDoubleArray>("EnergyTank", 1, ticks);
-
   haptics::GodObject godObject(
     { { prepared->GetSurface(), nullptr, prepared->GetSurfaceProperties() } });
-  haptics::SurfaceForce surfaceForce;
+  haptics::WorkspaceTransform deviceToWorld;
+  deviceToWorld.Scale = 1.0 / this->WorldToDeviceScale;
+  haptics::ContactTick tick;
+  haptics::SurfaceForce law;
   haptics::FeelLimits limits;
   limits.MaximumForce = this->MaximumForce;
-  double energy = 0.0;
-  haptics::Vec3 lastHip{};
-  haptics::Vec3 force{};
-  haptics::ForceModel model;
-  model.Stiffness = this->Stiffness;
-  model.MaximumForce = this->MaximumForce;
+  haptics::TickRecord record;
+  haptics::TraceRecorder recorder;
+  recorder.Reserve(ticks);
   vtkIdType heldTicks = 0;
   vtkIdType refusedTicks = 0;
   for (vtkIdType i = 0; i < ticks; ++i)
@@ -307,41 +256,16 @@ void vtkGodObjectTrace::Replay(vtkPolyData* path, vtkGodObjectFilter* prepared, 
     }
     haptics::Vec3 hip;
     path->GetPoint(i, hip.data());
-    const haptics::Contact& contact = godObject.Update(hip);
-    heldTicks += contact.Status == haptics::UpdateStatus::Overloaded ? 1 : 0;
-    refusedTicks += contact.Status == haptics::UpdateStatus::InvalidHip ? 1 : 0;
-    haptics::FeltContact felt;
-    felt.Position = Scaled(hip, this->WorldToDeviceScale);
-    felt.Displacement = Scaled(contact.Displacement, this->WorldToDeviceScale);
-    energy += i > 0 ? Work(force, lastHip, felt.Position) : 0.0;
-    lastHip = felt.Position;
-    double stiffness = this->Stiffness;
-    if (contact.Felt.IsPlain)
-    {
-      force = model.Force(felt.Displacement);
-    }
-    else
-    {
-      felt.Shaded = Scaled(contact.Shaded, this->WorldToDeviceScale);
-      felt.Period = this->TickPeriod;
-      felt.IsTouching =
-        contact.NumberOfConstraints > 0 || contact.Status == haptics::UpdateStatus::Overloaded;
-      felt.Felt = contact.Felt;
-      force = surfaceForce.Update(felt, this->Stiffness, limits);
-      stiffness = felt.IsTouching ? surfaceForce.GetStiffness() : this->Stiffness;
-    }
-    positions->SetTypedTuple(i, contact.Position.data());
-    hips->SetTypedTuple(i, hip.data());
-    forces->SetTypedTuple(i, force.data());
-    stiffnesses->SetValue(i, stiffness);
-    energies->SetValue(i, energy);
-    tanks->SetValue(i, surfaceForce.GetTank());
-    constraints->SetValue(i, contact.NumberOfConstraints);
-    cells->SetValue(i,
-      contact.NumberOfConstraints > 0
-        ? originalCells->GetValue(StrongestConstraint(contact).Triangle)
-        : -1);
-    penetrations->SetValue(i, contact.Penetration);
+    const haptics::Contact& contact =
+      tick.Touch(godObject, deviceToWorld.VectorToDevice(hip), hip, deviceToWorld);
+    const haptics::Vec3 force = law.Update(contact, this->TickPeriod, this->Stiffness, limits);
+    record.Time = static_cast<double>(i) * this->TickPeriod;
+    tick.Record(godObject, force, law, record);
+    heldTicks += record.Status == haptics::UpdateStatus::Overloaded ? 1 : 0;
+    refusedTicks += record.Status == haptics::UpdateStatus::InvalidHip ? 1 : 0;
+    const bool isHeld = record.NumberOfConstraints > 0;
+    recorder.Add({ record, isHeld ? 0 : -1,
+      isHeld ? originalCells->GetValue(record.Constraints[0].Triangle) : -1 });
   }
   if (heldTicks > 0)
   {
@@ -355,33 +279,18 @@ void vtkGodObjectTrace::Replay(vtkPolyData* path, vtkGodObjectFilter* prepared, 
                     << "the surface to be followed; the god-object waited.");
   }
 
-  vtkNew<vtkPoints> points;
-  points->SetData(positions);
-  vtkNew<vtkCellArray> line;
-  line->InsertNextCell(static_cast<int>(ticks));
-  for (vtkIdType i = 0; i < ticks; ++i)
+  recorder.Write(output);
+  vtkNew<vtkPointData> found;
+  found->ShallowCopy(output->GetPointData());
+  if (path->GetPointData()->HasArray("Time"))
   {
-    line->InsertCellPoint(i);
+    found->RemoveArray("Time");
   }
-  output->SetPoints(points);
-  if (ticks > 1)
+  output->GetPointData()->PassData(path->GetPointData());
+  for (int i = 0; i < found->GetNumberOfArrays(); ++i)
   {
-    output->SetLines(line);
+    output->GetPointData()->AddArray(found->GetAbstractArray(i));
   }
-  else
-  {
-    output->SetVerts(line);
-  }
-  vtkPointData* data = output->GetPointData();
-  data->PassData(path->GetPointData());
-  data->AddArray(hips);
-  data->AddArray(forces);
-  data->AddArray(constraints);
-  data->AddArray(cells);
-  data->AddArray(penetrations);
-  data->AddArray(stiffnesses);
-  data->AddArray(energies);
-  data->AddArray(tanks);
   this->UpdateProgress(1.0);
 }
 

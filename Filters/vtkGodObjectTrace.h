@@ -10,17 +10,20 @@
  * by itself.
  *
  * The output is the polyline of the god-object [world], one point for each HIP, with the point data
- * of the path (such as `Time` [s]) and:
+ * of the path and, of each tick (haptics::ContactTick, which a servo runs too, so that a
+ * vtkHapticScene's trace has the same arrays with the same meaning):
  *
+ * - `Time` [s]: the path's own where it has such an array, else by the tick period;
  * - `HapticInterfacePoint` (3): the HIP [world];
- * - `Force` (3): what the hand would feel [N], along the world's axes; see haptics::ForceModel;
+ * - `Force` (3): what the hand would feel [N], along the world's axes; see haptics::SurfaceForce;
  * - `ActiveConstraints`: how many planes hold the god-object back, 0 to 3;
+ * - `Surface`: 0, and -1 in free space;
  * - `OriginalCellId`: the cell touched, -1 in free space. Of several, the one that pushes most. It
  *   counts the cells of port 1, or of the input of the vtkGodObjectFilter that port 1 comes from;
  * - `Penetration`: distance from HIP to god-object [world unit];
  * - `Stiffness`: in effect [N/m], of the spring or of the surface where it has properties;
- * - `Energy`: what the hand has put in so far and not got out [J], with the force held from one HIP
- *   to the next;
+ * - `Energy`: what the hand has put in since the first HIP and not got out [J], with the force held
+ *   from one HIP to the next;
  * - `EnergyTank`: what a surface with properties may still spend [J]; see haptics::SurfaceForce.
  *
  * The first HIP is taken as free space, whichever side of the surface it lies on. The same inputs

@@ -45,34 +45,19 @@ void ForceGuard::StartSoftly(const SafetySettings& settings) noexcept
   this->SoftTimeLeft = settings.SoftStartTime;
 }
 
-Vec3 ForceGuard::Force(
-  const GuardedContact& told, const ForceModel& model, const SafetySettings& settings) noexcept
+Vec3 ForceGuard::Force(const Contact& contact, double since, const ForceModel& model,
+  const SafetySettings& settings) noexcept
 {
-  GuardedContact contact = told;
-  // A device may have a time of its own, and tell anything.
-  contact.Period = std::isfinite(told.Period) ? std::max(0.0, told.Period) : 0.0;
-  this->Limits = 0;
-  ForceModel spring = model;
-  spring.Stiffness = this->Stiffener.Update(contact.Period, model.Stiffness, settings);
-  this->Stiffness = spring.Stiffness;
-  if (spring.Stiffness < model.Stiffness)
-  {
-    this->Limits |= StiffnessLimited;
-  }
-
+  // A device may have a time of its own, and report anything.
+  const double period = std::isfinite(since) ? std::max(0.0, since) : 0.0;
   const bool isPlain = contact.Felt.IsPlain;
-  Vec3 force = isPlain ? spring.Force(contact.Displacement) : this->Felt(contact, model, settings);
-  if (isPlain && contact.Touching &&
-    Length(contact.Displacement) * spring.Stiffness > model.MaximumForce)
-  {
-    this->Limits |= ForceClamped;
-  }
-  force = Sum(force, 1.0, this->Damping(contact, settings));
+  const bool isTouching = contact.IsTouching();
+  Vec3 force = this->Spring(contact, period, model, settings);
+  force = Sum(force, 1.0, this->Damping(contact, period, settings));
   if (settings.PassivityControl || !isPlain)
   {
-    const Vec3 damping =
-      this->Passivity.Update(contact.Position, contact.Period, settings.DeviceDamping,
-        settings.PassivityControl ? LargestPassivityDamping : 0.0, contact.Touching);
+    const Vec3 damping = this->Passivity.Update(contact.Hip, period, settings.DeviceDamping,
+      settings.PassivityControl ? LargestPassivityDamping : 0.0, isTouching);
     if (damping != Vec3{})
     {
       this->Limits |= PassivityDamped;
@@ -105,24 +90,17 @@ Vec3 ForceGuard::Force(
   }
   this->WasPaused = settings.Paused;
 
-  force = this->LimitSlew(force, contact.Period, model.MaximumForce, settings);
-  this->Passivity.Sent(force, contact.SurfaceStep);
+  force = this->LimitSlew(force, period, model.MaximumForce, settings);
+  this->Passivity.Sent(force, contact.Carried);
   this->Last = force;
   return force;
 }
 
-/// The force of surfaces with properties; Stiffness is the plain spring's, and then theirs.
-Vec3 ForceGuard::Felt(
-  const GuardedContact& contact, const ForceModel& model, const SafetySettings& settings) noexcept
+/// What the contact asks for, with no more stiffness and damping than device and periods bear.
+Vec3 ForceGuard::Spring(const Contact& contact, double period, const ForceModel& model,
+  const SafetySettings& settings) noexcept
 {
-  FeltContact felt;
-  felt.Position = contact.Position;
-  felt.Displacement = contact.Displacement;
-  felt.Shaded = contact.Shaded;
-  felt.Carried = contact.SurfaceStep;
-  felt.Period = contact.Period;
-  felt.IsTouching = contact.Touching;
-  felt.Felt = contact.Felt;
+  const double plain = this->Stiffener.Update(period, model.Stiffness, settings);
   FeelLimits limits;
   limits.MaximumForce = model.MaximumForce;
   limits.Damping = settings.DeviceDamping > 0.0
@@ -130,36 +108,33 @@ Vec3 ForceGuard::Felt(
     : LargestPassivityDamping;
   const double damping = std::min(contact.Felt.Damping, limits.Damping);
   limits.Stiffness = std::min(model.LargestStiffness, this->Stiffener.Allowed(settings, damping));
-  const Vec3 force = this->Surface.Update(felt, this->Stiffness, limits);
-  if (contact.Touching)
-  {
-    this->Limits &= ~static_cast<std::uint32_t>(StiffnessLimited);
-    this->Limits |= (this->Surface.IsLimited() ? StiffnessLimited : 0u) |
-      (this->Surface.IsHeldBack() ? EnergyHeldBack : 0u) |
-      (this->Surface.IsClamped() ? ForceClamped : 0u);
-    this->Stiffness = this->Surface.GetStiffness();
-  }
+  const Vec3 force = this->Law.Update(contact, period, plain, limits);
+  const bool isLimited =
+    contact.Felt.IsPlain || !contact.IsTouching() ? plain < model.Stiffness : this->Law.IsLimited();
+  this->Limits = (isLimited ? StiffnessLimited : 0u) |
+    (this->Law.IsHeldBack() ? EnergyHeldBack : 0u) | (this->Law.IsClamped() ? ForceClamped : 0u);
   return force;
 }
 
-Vec3 ForceGuard::Damping(const GuardedContact& contact, const SafetySettings& settings) noexcept
+Vec3 ForceGuard::Damping(
+  const Contact& contact, double period, const SafetySettings& settings) noexcept
 {
-  // Against the surface, which may move.
-  const Vec3 step = Sum(Sum(contact.Position, -1.0, this->LastPosition), -1.0, contact.SurfaceStep);
-  const bool knowsSpeed = this->HasPosition && contact.Period > 0.0;
-  this->LastPosition = contact.Position;
-  this->HasPosition = true;
+  // Against the surface, which may move; how far it did before it was touched nobody knows.
+  const Vec3 step = Sum(Sum(contact.Hip, -1.0, this->LastPosition), -1.0, contact.Carried);
+  const bool knowsSpeed = this->WasTouching && period > 0.0;
+  this->LastPosition = contact.Hip;
+  this->WasTouching = contact.IsTouching();
   const double depth = Length(contact.Displacement);
-  if (settings.ContactDamping <= 0.0 || !contact.Touching || depth == 0.0 || !knowsSpeed)
+  if (settings.ContactDamping <= 0.0 || !contact.IsTouching() || depth == 0.0 || !knowsSpeed)
   {
     this->NormalSpeed = 0.0;
     return {};
   }
   const Vec3 normal = Sum({}, 1.0 / depth, contact.Displacement);
-  const double weight = contact.Period / (contact.Period + SpeedSmoothing);
-  this->NormalSpeed += weight * (Dot(step, normal) / contact.Period - this->NormalSpeed);
+  const double weight = period / (period + SpeedSmoothing);
+  this->NormalSpeed += weight * (Dot(step, normal) / period - this->NormalSpeed);
   // A surface pushes and never pulls: damping takes at most the spring's own force away.
-  const double pull = this->Stiffness * depth;
+  const double pull = this->Law.GetStiffness() * depth;
   return Sum({}, std::max(-settings.ContactDamping * this->NormalSpeed, -pull), normal);
 }
 

@@ -13,22 +13,9 @@
 
 namespace haptics
 {
-/// What a force is made from, device frame.
-struct GuardedContact
-{
-  Vec3 Position{};     ///< of the HIP [m]
-  Vec3 Displacement{}; ///< of the god-object from the HIP [m]
-  bool Touching = false;
-  double Period = 0.0; ///< since the last tick [s]; below 0 or not finite counts as 0
-  /// How far surfaces that move have taken the god-object along since the last tick [m].
-  Vec3 SurfaceStep{};
-  Feel Felt{};   ///< of surfaces with properties; plain: none of what follows counts
-  Vec3 Shaded{}; ///< the displacement turned by force shading [m]; only where Felt.IsShaded
-};
-
 /// @brief From a contact to the force that a hand may be given. Servo thread.
 ///
-///     stiffness limit -> spring or SurfaceForce -> contact damping -> passivity -> clamp -> slew,
+///     stiffness limit -> SurfaceForce -> contact damping -> passivity -> clamp -> slew,
 ///     soft start
 ///
 /// A force may shrink at once, but grows and turns no faster than the slew limit:
@@ -46,37 +33,35 @@ public:
   void StartSoftly(const SafetySettings& settings) noexcept;
   /// The device has let go of the last force: the next one grows from zero.
   void Release() noexcept { this->Last = {}; }
-  /// The force to ask for [N]; finite, and never longer than `model` allows.
-  Vec3 Force(
-    const GuardedContact& told, const ForceModel& model, const SafetySettings& settings) noexcept;
+  /// The force to ask for [N]; finite, and never longer than `model` allows. `contact`: device
+  /// frame; `period`: since the last tick [s]; below 0 or not finite counts as 0.
+  Vec3 Force(const Contact& contact, double period, const ForceModel& model,
+    const SafetySettings& settings) noexcept;
 
   /// What limited the last force: bits of SafetyLimit.
   std::uint32_t GetLimits() const noexcept { return this->Limits; }
-  /// The stiffness of the last force [N/m].
-  double GetStiffness() const noexcept { return this->Stiffness; }
+  /// What the last force was made by, before it was limited.
+  const SurfaceForce& GetLaw() const noexcept { return this->Law; }
   /// The passivity observer's balance [J]; 0 while it is off: without passivity control and without
   /// properties.
-  double GetEnergy() const noexcept { return this->Passivity.GetEnergy(); }
-  /// What the surfaces' energy tank holds [J]; 0 without properties.
-  double GetTank() const noexcept { return this->Surface.GetTank(); }
+  double GetPassivityBalance() const noexcept { return this->Passivity.GetEnergy(); }
 
 private:
-  Vec3 Felt(const GuardedContact& contact, const ForceModel& model,
+  Vec3 Spring(const Contact& contact, double period, const ForceModel& model,
     const SafetySettings& settings) noexcept;
-  Vec3 Damping(const GuardedContact& contact, const SafetySettings& settings) noexcept;
+  Vec3 Damping(const Contact& contact, double period, const SafetySettings& settings) noexcept;
   Vec3 LimitSlew(
     const Vec3& force, double period, double maximumForce, const SafetySettings& settings) noexcept;
 
   StiffnessLimit Stiffener;
-  SurfaceForce Surface;
+  SurfaceForce Law;
   PassivityController Passivity;
   Vec3 Last{}; // the last force [N]
   Vec3 LastPosition{};
-  bool HasPosition = false;
+  bool WasTouching = false;
   bool WasPaused = false;
   double NormalSpeed = 0.0; // [m/s], smoothed
   double SoftTimeLeft = 0.0;
-  double Stiffness = 0.0;
   std::uint32_t Limits = 0;
 };
 }

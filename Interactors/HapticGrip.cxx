@@ -87,7 +87,7 @@ bool HapticGrip::Carry(const TickRecord& tick, vtkActor* actor, SurfaceSet& surf
   Matrix4 world;
   surface->Actor()->GetMatrix(world.data());
   const Vec3 there = Transformed(world, this->Point);
-  const Vec3& hand = tick.GodObject;
+  const Vec3& hand = tick.Position;
   const Vec3 by{ hand[0] - there[0], hand[1] - there[1], hand[2] - there[2] };
   const double size =
     std::max({ Largest(hand), Largest(there), Largest({ world[3], world[7], world[11] }) });

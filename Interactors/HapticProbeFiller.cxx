@@ -46,7 +46,7 @@ void vtkHapticProbeFiller::SetTick(vtkHapticProbe* probe, const haptics::TickRec
   probe->Time = tick.Time;
   probe->Penetration = tick.NumberOfConstraints > 0 ? tick.Penetration : 0.0;
   std::copy(tick.Hip.begin(), tick.Hip.end(), probe->HapticInterfacePoint);
-  std::copy(tick.GodObject.begin(), tick.GodObject.end(), probe->Position);
+  std::copy(tick.Position.begin(), tick.Position.end(), probe->Position);
   std::copy(tick.WorldForce.begin(), tick.WorldForce.end(), probe->Force);
 }
 
@@ -84,7 +84,7 @@ void vtkHapticProbeFiller::SetContact(vtkHapticProbe* probe, const haptics::Tick
   const haptics::Vec3 turned = touched.Pose.VectorToWorld(toTriangle);
   for (std::size_t i = 0; i < 3; ++i)
   {
-    probe->Position[i] = isMoved ? tick.GodObject[i] + turned[i] : local[i];
+    probe->Position[i] = isMoved ? tick.Position[i] + turned[i] : local[i];
   }
   haptics::RigidPose pose = touched.Pose;
   const haptics::Vec3 turnedLocal = pose.VectorToWorld(local);

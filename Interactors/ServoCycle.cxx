@@ -48,6 +48,7 @@ void ServoCycle::Begin(std::shared_ptr<DeviceChannel> channel, ServoState state)
   this->Channel->Restart();
   this->Channel->Resume(); // a watchdog may have halted it in the run before
   this->Now = TickRecord();
+  this->Contacts.Restart();
   this->IsFirst = true;
   this->MustPlace = true;
   this->State.store(state, std::memory_order_release);
@@ -83,32 +84,17 @@ bool ServoCycle::Tick(double time) noexcept
     god.Object->Place(hip);
   }
 
-  const Contact& contact = god.Object->Update(hip);
-  GuardedContact guarded;
-  guarded.Position = sample.Position;
-  guarded.Period = period;
-  if (contact.Status != UpdateStatus::InvalidHip)
+  const Contact& contact =
+    this->Contacts.Touch(*god.Object, sample.Position, hip, settings.DeviceToWorld);
+  if (!IsFinite(contact.Displacement))
   {
-    guarded.Displacement = settings.DeviceToWorld.VectorToDevice(contact.Displacement);
-    guarded.Touching =
-      contact.NumberOfConstraints > 0 || contact.Status == UpdateStatus::Overloaded;
-    guarded.SurfaceStep = settings.DeviceToWorld.VectorToDevice(contact.Carried);
-    guarded.Felt = contact.Felt;
-    if (contact.Felt.IsShaded)
-    {
-      guarded.Shaded = settings.DeviceToWorld.VectorToDevice(contact.Shaded);
-    }
-    if (!IsFinite(guarded.Displacement))
-    {
-      this->End(ServoState::InvalidForce);
-      return false;
-    }
+    this->End(ServoState::InvalidForce);
+    return false;
   }
-  const Vec3 force = this->Guard.Force(guarded, settings.Force, settings.Safety);
+  const Vec3 force = this->Guard.Force(contact, period, settings.Force, settings.Safety);
   this->Channel->Write(force);
 
   this->Now.Time = time;
-  this->Now.DevicePosition = sample.Position;
   this->Now.Buttons = sample.Buttons;
   this->Record(god, force);
   return true;
@@ -136,26 +122,11 @@ void ServoCycle::Resume() noexcept
   this->Guard.StartSoftly(this->NextSettings.Get().Safety);
 }
 
-void ServoCycle::Record(NumberedGodObject& god, const Vec3& force) noexcept
+void ServoCycle::Record(const NumberedGodObject& god, const Vec3& force) noexcept
 {
-  const Contact& contact = god.Object->Current();
-  this->Now.Force = force;
-  this->Now.WorldForce = this->NextSettings.Get().DeviceToWorld.DirectionToWorld(force);
-  this->Now.Hip = contact.Hip;
-  this->Now.GodObject = contact.Position;
-  if (contact.NumberOfConstraints > 0)
-  {
-    this->Now.Local = god.Object->LocalPosition(contact.Constraints[0].Surface);
-    this->Now.DeformFraction = god.Object->DeformFraction(contact.Constraints[0].Surface);
-  }
-  this->Now.Penetration = contact.Penetration;
-  this->Now.Status = contact.Status;
-  this->Now.NumberOfConstraints = contact.NumberOfConstraints;
-  this->Now.Constraints = contact.Constraints;
+  this->Contacts.Record(*god.Object, force, this->Guard.GetLaw(), this->Now);
   this->Now.Generation = god.Generation;
-  this->Now.Stiffness = this->Guard.GetStiffness();
-  this->Now.Energy = this->Guard.GetEnergy();
-  this->Now.Tank = this->Guard.GetTank();
+  this->Now.PassivityBalance = this->Guard.GetPassivityBalance();
   this->Now.Limits = this->Guard.GetLimits();
 
   this->Latest.Publish(this->Now);

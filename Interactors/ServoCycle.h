@@ -1,6 +1,7 @@
 #ifndef ServoCycle_h
 #define ServoCycle_h
 
+#include "ContactTick.h"
 #include "ForceGuard.h"
 #include "ForceModel.h"
 #include "GodObjectExchange.h"
@@ -44,8 +45,7 @@ struct ServoSettings
 
 /// @brief One servo tick: position in, god-object, force out. Knows nothing of time or threads.
 ///
-///     Read -> device to world -> GodObject::Advance, Update -> world to device -> ForceGuard ->
-///     Write
+///     Read -> device to world -> GodObject::Advance -> ContactTick -> ForceGuard -> Write
 ///
 /// The first group of methods is the GUI thread's, the second the servo thread's; both may run at
 /// once, and none of the second allocates, locks or logs. Any fault asks for zero force in the same
@@ -96,7 +96,7 @@ public:
   ///@}
 
 private:
-  void Record(NumberedGodObject& god, const Vec3& force) noexcept;
+  void Record(const NumberedGodObject& god, const Vec3& force) noexcept;
   bool NoticeJumps(const NumberedGodObject& god, const ServoSettings& settings) noexcept;
 
   GodObjectExchange Exchange;
@@ -109,6 +109,7 @@ private:
   // The servo thread's own.
   std::shared_ptr<DeviceChannel> Channel;
   TickRecord Now;
+  ContactTick Contacts;
   ForceGuard Guard;
   bool IsFirst = true;
   bool MustPlace = true;

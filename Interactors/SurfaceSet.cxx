@@ -204,7 +204,7 @@ Vec3 SurfaceSet::PointOf(const TickRecord& tick, const HapticSurface& surface) c
   const Entry* entry = this->Find(tick, 0);
   if (!entry || entry->Id != surface.Id())
   {
-    return surface.Pose().PointToSurface(tick.GodObject);
+    return surface.Pose().PointToSurface(tick.Position);
   }
   const Vec3& origin = entry->Touched->Origin();
   return { tick.Local[0] + origin[0], tick.Local[1] + origin[1], tick.Local[2] + origin[2] };

@@ -215,7 +215,7 @@ void vtkHapticScene::PullRecords()
     this->Internal->Grip.Look(record, this->Internal->Surfaces);
     if (this->Actor)
     {
-      this->Actor->AddTrailPoint(record.GodObject.data(), record.NumberOfConstraints > 0);
+      this->Actor->AddTrailPoint(record.Position.data(), record.NumberOfConstraints > 0);
     }
     if (this->Recording && recorder.Size() >= this->MaximumTraceTicks)
     {
@@ -228,9 +228,7 @@ void vtkHapticScene::PullRecords()
     if (this->Recording)
     {
       const haptics::SceneCell cell = this->Internal->Surfaces.Locate(record);
-      recorder.Add({ record.Time, record.Hip, record.GodObject, record.WorldForce,
-        record.Penetration, record.Stiffness, record.Energy, record.Tank, cell.Cell, cell.Surface,
-        record.NumberOfConstraints });
+      recorder.Add({ record, cell.Surface, cell.Cell });
     }
   }
   if (!records.empty())
@@ -251,7 +249,7 @@ bool vtkHapticScene::ShowState()
   if (this->Internal->Clutched) // the hand stays where it let go
   {
     std::copy_n(this->HapticInterfacePoint, 3, latest.Hip.begin());
-    std::copy_n(this->GodObject, 3, latest.GodObject.begin());
+    std::copy_n(this->GodObject, 3, latest.Position.begin());
   }
   const int state = this->Servo->GetState();
   const bool live = state == vtkHapticServo::Running || state == vtkHapticServo::Stepping;
@@ -272,13 +270,13 @@ bool vtkHapticScene::ShowState()
 
   const bool changed =
     !std::equal(latest.Hip.begin(), latest.Hip.end(), this->HapticInterfacePoint) ||
-    !std::equal(latest.GodObject.begin(), latest.GodObject.end(), this->GodObject) ||
+    !std::equal(latest.Position.begin(), latest.Position.end(), this->GodObject) ||
     !std::equal(force.begin(), force.end(), this->Force) || touching != this->Touching ||
     squeezed != this->Squeezed || overloaded != this->Overloaded ||
     (this->Actor && this->Internal->LandmarksShown != this->Landmarks->GetMTime());
 
   std::copy(latest.Hip.begin(), latest.Hip.end(), this->HapticInterfacePoint);
-  std::copy(latest.GodObject.begin(), latest.GodObject.end(), this->GodObject);
+  std::copy(latest.Position.begin(), latest.Position.end(), this->GodObject);
   std::copy(force.begin(), force.end(), this->Force);
   this->Penetration = touching ? latest.Penetration : 0.0;
   this->Touching = touching;

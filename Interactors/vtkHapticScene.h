@@ -362,7 +362,8 @@ public:
    * The trace so far: a polyline of the god-object, one point a tick, world frame, with the point
    * arrays Time [s], HapticInterfacePoint [world unit], Force [N, world axes], ActiveConstraints,
    * Surface (id, -1 in free space), OriginalCellId (-1 in free space), Penetration [world unit],
-   * Stiffness (in effect [N/m]), Energy (vtkHapticServo::GetObservedEnergy() [J]), EnergyTank [J].
+   * Stiffness (in effect [N/m]), Energy (what the hand has put in since the servo's start and not
+   * got out [J]), EnergyTank [J]: the same arrays as those of a vtkGodObjectTrace.
    * Made anew at each call; empty where nothing was recorded. Ticks that came faster than Update()
    * drained them are missing from it: see GetNumberOfLostTicks().
    */

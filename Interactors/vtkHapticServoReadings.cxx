@@ -35,7 +35,7 @@ void vtkHapticServo::GetHapticInterfacePoint(double position[3])
 
 void vtkHapticServo::GetGodObject(double position[3])
 {
-  Copy(this->GetLatestRecord().GodObject, position);
+  Copy(this->GetLatestRecord().Position, position);
 }
 
 void vtkHapticServo::GetForce(double force[3])
@@ -151,7 +151,7 @@ double vtkHapticServo::GetCurrentStiffness()
 
 double vtkHapticServo::GetObservedEnergy()
 {
-  return this->GetLatestRecord().Energy;
+  return this->GetLatestRecord().PassivityBalance;
 }
 
 double vtkHapticServo::GetEnergyTank()
@@ -209,12 +209,12 @@ void vtkHapticServo::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "State: " << this->GetStateAsString() << "\n";
   os << indent << "ErrorMessage: " << this->ErrorMessage << "\n";
   print("HapticInterfacePoint", tick.Hip, "");
-  print("GodObject", tick.GodObject, "");
+  print("GodObject", tick.Position, "");
   print("Force", tick.Force, " N");
   os << indent << "Penetration: " << tick.Penetration << "\n";
   os << indent << "NumberOfConstraints: " << tick.NumberOfConstraints << "\n";
   os << indent << "CurrentStiffness: " << tick.Stiffness << " N/m\n";
-  os << indent << "ObservedEnergy: " << tick.Energy << " J\n";
+  os << indent << "ObservedEnergy: " << tick.PassivityBalance << " J\n";
   os << indent << "EnergyTank: " << tick.Tank << " J\n";
   os << indent << "ForceLimits: " << this->DescribeForceLimits() << "\n";
   os << indent << "NumberOfHalts: " << this->GetNumberOfHalts() << "\n";

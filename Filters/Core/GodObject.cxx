@@ -264,6 +264,28 @@ bool GodObject::Implementation::IsOver(const ActivePlane& plane) const
   return this->Sets[plane.Facet.Surface].Covers(plane, this->Position, this->Active);
 }
 
+/// Tells the planes that hold the god-object, the one that pushes most first.
+void GodObject::Implementation::ListConstraints()
+{
+  const Vector displacement = ToVector(this->Result.Displacement);
+  std::array<double, 3> pushes{};
+  this->Result.NumberOfConstraints = this->Active.SupportSize();
+  for (int i = 0; i < this->Result.NumberOfConstraints; ++i)
+  {
+    const ActivePlane& plane = this->Active.Support(i);
+    const double push = glm::dot(plane.Normal, displacement);
+    int place = i;
+    for (; place > 0 && pushes[place - 1] < push; --place)
+    {
+      pushes[place] = pushes[place - 1];
+      this->Result.Constraints[place] = this->Result.Constraints[place - 1];
+    }
+    pushes[place] = push;
+    this->Result.Constraints[place] = { ToVec3(plane.Normal), plane.Facet.Surface,
+      plane.Facet.Triangle };
+  }
+}
+
 GodObject::GodObject(std::vector<TouchedSurface> surfaces)
   : Internal(new Implementation(std::move(surfaces)))
 {
@@ -350,12 +372,7 @@ const Contact& GodObject::Update(const Vec3& hip) noexcept
                                    : UpdateStatus::Touching;
   if (result.Status != UpdateStatus::Free)
   {
-    result.NumberOfConstraints = god.Active.SupportSize();
-    for (int i = 0; i < result.NumberOfConstraints; ++i)
-    {
-      const ActivePlane& plane = god.Active.Support(i);
-      result.Constraints[i] = { ToVec3(plane.Normal), plane.Facet.Surface, plane.Facet.Triangle };
-    }
+    god.ListConstraints();
   }
   god.UpdateFeel();
   return result;

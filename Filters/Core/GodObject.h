@@ -15,7 +15,7 @@ namespace haptics
 /// One plane that held the god-object back at the end of an update.
 struct Constraint
 {
-  Vec3 Normal{};              ///< unit, world frame, towards the god-object
+  Vec3 Normal{};              ///< unit, towards the god-object
   std::int32_t Surface = -1;  ///< index in the list given to GodObject
   std::int32_t Triangle = -1; ///< index in that surface
 };
@@ -29,21 +29,31 @@ enum class UpdateStatus
   Squeezed    ///< surfaces have closed in and leave no place: ask for no force until they do
 };
 
-/// The outcome of one update.
+/// @brief The outcome of one update: the one record of a contact, from the god-object to the trace.
+///
+/// In the world frame as GodObject gives it. InDevice() has the same in the device frame [m], which
+/// is what forces are made from.
 struct Contact
 {
   UpdateStatus Status = UpdateStatus::Free;
-  Vec3 Hip{};          ///< world frame
-  Vec3 Position{};     ///< the god-object, world frame
-  Vec3 Displacement{}; ///< god-object minus HIP, world axes; keeps its digits far from the origin
-  double Penetration = 0.0; ///< |Displacement| [world unit]
-  /// How far surfaces that moved, or changed all at once, have taken the god-object along, pushed it
-  /// or let it go since the update before; world axes. With the force, the work that they did.
+  Vec3 Hip{};
+  Vec3 Position{};          ///< the god-object
+  Vec3 Displacement{};      ///< god-object minus HIP; keeps its digits far from the origin
+  double Penetration = 0.0; ///< |Displacement|
+  /// How far surfaces that moved, or changed all at once, have taken the god-object along, pushed
+  /// it or let it go since the update before. With the force, the work that they did.
   Vec3 Carried{};
-  int NumberOfConstraints = 0;
+  int NumberOfConstraints = 0; ///< 0 to 3
+  /// The first NumberOfConstraints are valid; the one that pushes most against the HIP comes first.
   std::array<Constraint, 3> Constraints;
   Feel Felt;     ///< of the surfaces there; plain where none of the god-object's has properties
   Vec3 Shaded{}; ///< Displacement turned by force shading; only where Felt.IsShaded
+
+  /// Whether surfaces hold the god-object back.
+  bool IsTouching() const noexcept
+  {
+    return this->Status == UpdateStatus::Touching || this->Status == UpdateStatus::Overloaded;
+  }
 };
 
 /// @brief The constraint-based god-object of Zilles and Salisbury (1995), certified against leaks.

@@ -36,6 +36,7 @@ public:
   void Advance(double dt, double haste);
   bool HasArrived() const;
   void Update(const Vector& hip);
+  void ListConstraints();
   void UpdateFeel();
   void StayInContact(const Implementation& previous);
   void Settle(const Implementation& previous);
@@ -102,7 +103,7 @@ private:
   std::vector<std::int32_t> Deforming; ///< surfaces
   WorkBudget Budget;
   std::vector<std::int32_t> Scratch; ///< for questions to another god-object's surfaces
-  int PassesLeft = 0; ///< of this update
+  int PassesLeft = 0;                ///< of this update
   Friction Cone;
   /// The surfaces that count: all, but for a god-object that is split.
   std::size_t First = 0;

@@ -36,7 +36,7 @@ double SurfaceForce::WantedGain(
   return this->Limited ? limits.Stiffness / slope : wanted;
 }
 
-void SurfaceForce::SetGain(const FeltContact& contact, double wanted, double depth) noexcept
+void SurfaceForce::SetGain(const Contact& contact, double wanted, double depth) noexcept
 {
   const ForceProfile* const profile = contact.Felt.Profile;
   const double energy = LawEnergyOf(profile, depth);
@@ -54,7 +54,7 @@ void SurfaceForce::SetGain(const FeltContact& contact, double wanted, double dep
     const Vector displacement = ToVector(contact.Displacement);
     const Vector force = displacement *
       (isSameLaw ? this->Gain * LawForceOf(profile, depth) / depth : 2.0 * held / (depth * depth));
-    const Vector step = ToVector(contact.Position) - ToVector(this->Position);
+    const Vector step = ToVector(contact.Hip) - ToVector(this->Position);
     if (!this->Clamped)
     {
       // What hand and moving surfaces have put in and the spring does not hold: the friction's
@@ -84,17 +84,45 @@ void SurfaceForce::SetGain(const FeltContact& contact, double wanted, double dep
   this->Profile = profile;
 }
 
+/// The spring alone. What it remembers is for surfaces with properties that the same touch may
+/// come to.
+Vec3 SurfaceForce::PlainForce(
+  const Contact& contact, double depth, double plainStiffness, const FeelLimits& limits) noexcept
+{
+  const Vector law = plainStiffness * ToVector(contact.Displacement);
+  const double length = glm::length(law);
+  this->WasTouching = true;
+  this->Limited = false;
+  this->HeldBack = false;
+  this->Gain = plainStiffness;
+  this->Stiffness = plainStiffness;
+  this->Depth = depth;
+  this->Stored = 0.5 * plainStiffness * depth * depth;
+  this->Profile = nullptr;
+  this->Position = contact.Hip;
+  this->LawForce = ToVec3(law);
+  this->OtherForce = {};
+  this->Clamped = length > limits.MaximumForce;
+  return ToVec3(this->Clamped ? law * (limits.MaximumForce / length) : law);
+}
+
 Vec3 SurfaceForce::Update(
-  const FeltContact& contact, double plainStiffness, const FeelLimits& limits) noexcept
+  const Contact& contact, double period, double plainStiffness, const FeelLimits& limits) noexcept
 {
   const Vector displacement = ToVector(contact.Displacement);
   const double depth = glm::length(displacement);
-  if (!contact.IsTouching || !std::isfinite(depth) || depth == 0.0)
+  if (!contact.IsTouching() || !std::isfinite(depth) || depth == 0.0)
   {
     const double debt = std::min(this->Tank, 0.0);
     this->Restart();
     this->Tank = debt;
+    this->Stiffness = plainStiffness;
     return {};
+  }
+  this->HasProperties = this->HasProperties || !contact.Felt.IsPlain;
+  if (!this->HasProperties)
+  {
+    return this->PlainForce(contact, depth, plainStiffness, limits);
   }
   this->SetGain(contact, this->WantedGain(contact.Felt, plainStiffness, limits), depth);
   this->Stiffness = this->Gain * (this->Profile ? this->Profile->SteepestSlope() : 1.0);
@@ -102,12 +130,12 @@ Vec3 SurfaceForce::Update(
   const bool needsVelocity = contact.Felt.Damping > 0.0 || contact.Felt.IsShaded;
   Vector step(0.0);
   Vector velocity(0.0);
-  if (needsVelocity && this->WasTouching && contact.Period > 0.0)
+  if (needsVelocity && this->WasTouching && period > 0.0)
   {
-    step = ToVector(contact.Position) - ToVector(this->Position);
-    const double weight = contact.Period / (contact.Period + VelocitySmoothing);
+    step = ToVector(contact.Hip) - ToVector(this->Position);
+    const double weight = period / (period + VelocitySmoothing);
     velocity = ToVector(this->Velocity);
-    velocity += weight * (step / contact.Period - velocity);
+    velocity += weight * (step / period - velocity);
   }
 
   const double magnitude = this->Gain * LawForceOf(this->Profile, depth);
@@ -117,7 +145,7 @@ Vec3 SurfaceForce::Update(
   {
     other = (ToVector(contact.Shaded) - displacement) * (magnitude / depth);
     const double gives =
-      std::max({ glm::dot(other, step), glm::dot(other, velocity) * contact.Period, 0.0 });
+      std::max({ glm::dot(other, step), glm::dot(other, velocity) * period, 0.0 });
     other *= gives > 0.0 ? std::min(1.0, std::max(this->Tank, 0.0) / (TicksToEmpty * gives)) : 1.0;
   }
   if (contact.Felt.Damping > 0.0)
@@ -140,7 +168,7 @@ Vec3 SurfaceForce::Update(
   }
   this->WasTouching = true;
   this->Depth = depth;
-  this->Position = contact.Position;
+  this->Position = contact.Hip;
   this->Velocity = ToVec3(velocity);
   this->LawForce = ToVec3(law);
   this->OtherForce = ToVec3(other);

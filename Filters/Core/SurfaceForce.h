@@ -1,7 +1,7 @@
 #ifndef SurfaceForce_h
 #define SurfaceForce_h
 
-#include "Feel.h"
+#include "GodObject.h"
 #include "Vec3.h"
 #include "vtkHapticsCoreModule.h"
 
@@ -9,18 +9,6 @@
 
 namespace haptics
 {
-/// What a tick tells of a contact, device frame.
-struct FeltContact
-{
-  Vec3 Position{};     ///< of the HIP [m]
-  Vec3 Displacement{}; ///< of the god-object from the HIP [m]
-  Vec3 Shaded{};       ///< the same turned by force shading; only where Felt.IsShaded
-  Vec3 Carried{};      ///< by surfaces that moved, since the last tick [m]
-  double Period = 0.0; ///< since the last tick [s]
-  bool IsTouching = false;
-  haptics::Feel Felt{};
-};
-
 /// What device and servo allow.
 struct FeelLimits
 {
@@ -29,7 +17,10 @@ struct FeelLimits
   double MaximumForce = std::numeric_limits<double>::infinity(); ///< [N]
 };
 
-/// @brief The force of surfaces with properties: stiffness, profile, texture, shading, damping.
+/// @brief From a contact to its force: a spring, and what the properties of surfaces make of it:
+/// stiffness, profile, texture, shading, damping.
+///
+/// Where nothing has properties since the touch began it is the spring K (p - h) and nothing else.
 ///
 ///     law: gain · phi(depth), phi the depth or a profile, along the displacement
 ///       + shading: the same turned, less itself     + damping: -B · velocity
@@ -59,11 +50,14 @@ class VTKHAPTICSCORE_EXPORT SurfaceForce
 public:
   /// Forgets everything.
   void Restart() noexcept { *this = SurfaceForce(); }
-  /// The force [N], not longer than the largest one; `plainStiffness` [N/m] is that of surfaces
-  /// which have none of their own. Zero in free space, and where the displacement is not finite.
-  Vec3 Update(const FeltContact& contact, double plainStiffness, const FeelLimits& limits) noexcept;
+  /// The force [N], not longer than the largest one. `contact`: device frame; `period` since the
+  /// last tick [s]; `plainStiffness` [N/m] is that of surfaces which have none of their own. Zero
+  /// in free space, and where the displacement is not finite.
+  Vec3 Update(const Contact& contact, double period, double plainStiffness,
+    const FeelLimits& limits) noexcept;
 
-  /// Of the last force: the gain [N/m], or with a profile its steepest slope [N/m].
+  /// Of the last force: the gain [N/m], or with a profile its steepest slope [N/m]; the plain
+  /// stiffness in free space.
   double GetStiffness() const noexcept { return this->Stiffness; }
   /// Whether the last force had less stiffness than the surface, because of the limits.
   bool IsLimited() const noexcept { return this->Limited; }
@@ -75,10 +69,13 @@ public:
   double GetTank() const noexcept { return this->Tank; }
 
 private:
+  Vec3 PlainForce(
+    const Contact& contact, double depth, double plainStiffness, const FeelLimits& limits) noexcept;
   double WantedGain(const Feel& felt, double plainStiffness, const FeelLimits& limits) noexcept;
-  void SetGain(const FeltContact& contact, double wanted, double depth) noexcept;
+  void SetGain(const Contact& contact, double wanted, double depth) noexcept;
 
   bool WasTouching = false;
+  bool HasProperties = false; ///< something touched since the touch began has some
   bool Clamped = false;
   bool Limited = false;
   bool HeldBack = false;

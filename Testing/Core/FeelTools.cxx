@@ -58,15 +58,7 @@ FeltHand::FeltHand(TouchedSurface surface, const Vec3& start, double plainStiffn
 Vec3 FeltHand::Move(const Vec3& hip)
 {
   const Contact& contact = this->God.Update(hip);
-  FeltContact felt;
-  felt.Position = hip;
-  felt.Displacement = contact.Displacement;
-  felt.Carried = contact.Carried;
-  felt.Shaded = contact.Shaded;
-  felt.Period = Period;
-  felt.IsTouching = contact.NumberOfConstraints > 0;
-  felt.Felt = contact.Felt;
-  const Vec3 force = this->Force.Update(felt, this->PlainStiffness, this->Limits);
+  const Vec3 force = this->Force.Update(contact, Period, this->PlainStiffness, this->Limits);
   if (!this->IsFirst)
   {
     const Vec3 step = hip - this->Hip;

@@ -1,8 +1,8 @@
 // Surfaces and HIPs that nobody should send: a right answer or none, never a leap or a NaN.
 #include "AnalyticSurfaces.h"
 #include "ExactQueries.h"
-#include "ForceModel.h"
 #include "GodObject.h"
+#include "SurfaceForce.h"
 
 #include <gtest/gtest.h>
 
@@ -107,7 +107,7 @@ TEST(BadSurfaces, AHipThatIsNoPlaceAmongGoodOnesLeavesNoTrace)
       wrong[tick % 3] = bad[tick % 2 + tick % 3 / 2];
       const Contact& contact = disturbed.Update(wrong);
       ASSERT_EQ(contact.Status, UpdateStatus::InvalidHip);
-      ASSERT_EQ(ForceModel().Force(contact.Displacement), (Vec3{ 0, 0, 0 }));
+      ASSERT_EQ(SurfaceForce().Update(contact, 0.001, 500.0, {}), (Vec3{ 0, 0, 0 }));
     }
     ASSERT_EQ(disturbed.Update(hip).Displacement, steady.Update(hip).Displacement)
       << "tick " << tick;
@@ -128,8 +128,10 @@ TEST(BadSurfaces, AHipThatJumpsAcrossTheWorldGetsAFiniteForceAndCrossesNothing)
       const double distance = distances[tick % 6];
       const Contact& contact =
         god.Update(distance * Unit({ std::cos(a), std::sin(a), std::sin(2.3 * a) }));
-      const Vec3 force = ForceModel().Force(contact.Displacement);
-      ASSERT_LE(Length(force), ForceModel().MaximumForce * (1.0 + 1e-12)) << "tick " << tick;
+      FeelLimits limits;
+      limits.MaximumForce = 3.3;
+      const Vec3 force = SurfaceForce().Update(contact, 0.001, 500.0, limits);
+      ASSERT_LE(Length(force), limits.MaximumForce * (1.0 + 1e-12)) << "tick " << tick;
       int corners = 0;
       const Vec3* const way = god.Way(corners);
       for (int i = 0; i + 1 < corners; ++i)

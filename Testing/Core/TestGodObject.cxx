@@ -1,8 +1,8 @@
 // Where the god-object has to be, against closed forms. In the drawings o is the god-object and
 // x the haptic interface point (HIP). Lengths are metres.
 #include "AnalyticSurfaces.h"
-#include "ForceModel.h"
 #include "GodObject.h"
+#include "SurfaceForce.h"
 
 #include <gtest/gtest.h>
 
@@ -450,14 +450,20 @@ TEST(GodObject, IsHeldNotLetThroughWhereTooManyTrianglesMeet)
   EXPECT_GE(contact.Position[2], 0.0);
 }
 
-TEST(ForceModel, IsASpringLimitedToWhatTheDeviceCan)
+TEST(SurfaceForce, IsASpringLimitedToWhatTheDeviceCan)
 {
-  ForceModel model;
-  model.Stiffness = 400.0;
-  model.MaximumForce = 3.0;
-  EXPECT_EQ(model.Force({ 0, 0, 0.005 }), (Vec3{ 0, 0, 2.0 }));
-  const Vec3 limited = model.Force({ 0.03, 0, 0.04 });
+  FeelLimits limits;
+  limits.MaximumForce = 3.0;
+  const auto force = [&limits](const Vec3& displacement)
+  {
+    Contact contact;
+    contact.Status = UpdateStatus::Touching;
+    contact.Displacement = displacement;
+    return SurfaceForce().Update(contact, 0.001, 400.0, limits);
+  };
+  EXPECT_EQ(force({ 0, 0, 0.005 }), (Vec3{ 0, 0, 2.0 }));
+  const Vec3 limited = force({ 0.03, 0, 0.04 });
   EXPECT_NEAR(limited[0], 1.8, 1e-15);
   EXPECT_NEAR(limited[2], 2.4, 1e-15);
-  EXPECT_EQ(model.Force({ 0, std::numeric_limits<double>::quiet_NaN(), 0 }), (Vec3{ 0, 0, 0 }));
+  EXPECT_EQ(force({ 0, std::numeric_limits<double>::quiet_NaN(), 0 }), (Vec3{ 0, 0, 0 }));
 }

@@ -1,8 +1,8 @@
 // Any surfaces, any path: every piece of the way is checked with exact arithmetic.
 #include "ExactQueries.h"
-#include "ForceModel.h"
 #include "FuzzInput.h"
 #include "GodObject.h"
+#include "SurfaceForce.h"
 #include "VectorMath.h"
 
 #include <algorithm>
@@ -148,9 +148,11 @@ public:
   {
     Require(IsFinite(contact.Displacement), "the displacement is finite");
     Require(std::isfinite(contact.Penetration), "the penetration is finite");
-    const Vec3 force = ForceModel().Force(contact.Displacement);
+    FeelLimits limits;
+    limits.MaximumForce = 3.3;
+    const Vec3 force = SurfaceForce().Update(contact, 0.001, 500.0, limits);
     Require(IsFinite(force), "the force is finite");
-    Require(Length(force) <= ForceModel().MaximumForce * (1.0 + 1e-12), "the force is limited");
+    Require(Length(force) <= limits.MaximumForce * (1.0 + 1e-12), "the force is limited");
     Require(
       contact.NumberOfConstraints >= 0 && contact.NumberOfConstraints <= 3, "0 to 3 constraints");
     for (int i = 0; i < contact.NumberOfConstraints; ++i)

@@ -13,6 +13,7 @@ haptics_add_gtest(TestHapticScene
   TestHapticSceneBadInput.cxx
   TestHapticSceneWorkspace.cxx
   TestMovingActors.cxx
+  TestOneTick.cxx
   TestSceneProperties.cxx
   TestSceneSides.cxx
   TestSceneEvents.cxx

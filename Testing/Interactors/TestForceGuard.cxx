@@ -7,12 +7,13 @@
 #include <cmath>
 #include <limits>
 
+using haptics::Contact;
 using haptics::ForceGuard;
 using haptics::ForceModel;
-using haptics::GuardedContact;
 using haptics::OverrunBudget;
 using haptics::SafetySettings;
 using haptics::StiffnessLimit;
+using haptics::UpdateStatus;
 using haptics::Vec3;
 
 // Virtual time: every test here gives the same in every run.
@@ -23,6 +24,16 @@ constexpr double Period = 0.001; // [s]
 double Length(const Vec3& v)
 {
   return std::hypot(v[0], v[1], v[2]);
+}
+
+/// What a god-object would have found, device frame.
+Contact MakeContact(const Vec3& position, const Vec3& displacement, bool isTouching)
+{
+  Contact contact;
+  contact.Hip = position;
+  contact.Displacement = displacement;
+  contact.Status = isTouching ? UpdateStatus::Touching : UpdateStatus::Free;
+  return contact;
 }
 
 /// A guard without soft start, in front of a device of 10 N.
@@ -39,8 +50,8 @@ struct Guarded
   }
   Vec3 Tick(const Vec3& displacement, const Vec3& position = {}, double period = Period)
   {
-    return this->Guard.Force(
-      { position, displacement, displacement != Vec3{}, period }, this->Model, this->Settings);
+    return this->Guard.Force(MakeContact(position, displacement, displacement != Vec3{}), period,
+      this->Model, this->Settings);
   }
 };
 
@@ -71,10 +82,10 @@ TEST(ForceGuard, TakesATimeThatDoesNotGoOnForNone)
       return guarded.Tick({ 0.0, 0.0, 0.005 }, { 0.0, 0.0, z -= 1e-5 }, dt)[2];
     };
     ASSERT_NEAR(tick(Period), 1.0, 1e-12);
-    const double stiffness = guarded.Guard.GetStiffness();
+    const double stiffness = guarded.Guard.GetLaw().GetStiffness();
     EXPECT_NEAR(tick(period), 1.0, 1e-12) << period << ": no time, so no growth";
     EXPECT_NEAR(tick(Period), 2.0, 1e-12) << period << ": and on from there";
-    EXPECT_NEAR(guarded.Guard.GetStiffness(), stiffness, 0.01 * stiffness) << period;
+    EXPECT_NEAR(guarded.Guard.GetLaw().GetStiffness(), stiffness, 0.01 * stiffness) << period;
   }
 }
 
@@ -115,7 +126,8 @@ TEST(ForceGuard, StartsSoftlyAndReachesTheLargestForceAtTheEnd)
   double last = 0.0;
   for (int i = 0; i < 100; ++i)
   {
-    const Vec3 force = guard.Force({ {}, { 0.0, 0.0, 1.0 }, true, Period }, model, settings);
+    const Vec3 force =
+      guard.Force(MakeContact({}, { 0.0, 0.0, 1.0 }, true), Period, model, settings);
     ASSERT_NEAR(force[2] - last, 0.1, 1e-9) << "10 N in 0.1 s";
     ASSERT_TRUE(guard.GetLimits() & haptics::SoftStarted);
     last = force[2];
@@ -297,7 +309,7 @@ TEST(PassivityController, LeavesAPassiveSpringAlone)
     const double z = -0.002 * (1.0 - std::cos(2.0 * 3.14159265358979 * i / 400.0));
     guarded.Tick({ 0.0, 0.0, std::max(0.0, -z) }, { 0.0, 0.0, z });
     ASSERT_FALSE(guarded.Guard.GetLimits() & haptics::PassivityDamped) << "tick " << i;
-    ASSERT_GE(guarded.Guard.GetEnergy(), 0.0);
+    ASSERT_GE(guarded.Guard.GetPassivityBalance(), 0.0);
   }
 }
 }

@@ -121,7 +121,7 @@ TEST_F(HapticServo, GivesTheSameTicksInEveryRunInVirtualTime)
   {
     ASSERT_EQ(runs[0][i].Time, runs[1][i].Time);
     ASSERT_EQ(runs[0][i].Hip, runs[1][i].Hip);
-    ASSERT_EQ(runs[0][i].GodObject, runs[1][i].GodObject);
+    ASSERT_EQ(runs[0][i].Position, runs[1][i].Position);
     ASSERT_EQ(runs[0][i].Force, runs[1][i].Force);
   }
 }

@@ -13,10 +13,11 @@
 #include <utility>
 #include <vector>
 
+using haptics::Contact;
 using haptics::ForceGuard;
 using haptics::ForceModel;
-using haptics::GuardedContact;
 using haptics::SafetySettings;
+using haptics::UpdateStatus;
 using haptics::Vec3;
 
 namespace
@@ -45,18 +46,17 @@ public:
   double Tick(double height, double hand)
   {
     const bool touching = height > hand;
-    GuardedContact contact;
-    contact.Position = { 0.0, 0.0, hand };
+    Contact contact;
+    contact.Hip = { 0.0, 0.0, hand };
     contact.Displacement = { 0.0, 0.0, touching ? height - hand : 0.0 };
-    contact.Touching = touching;
-    contact.Period = Period;
+    contact.Status = touching ? UpdateStatus::Touching : UpdateStatus::Free;
     // A god-object at the height of the plane or of the hand, whichever is above, is pushed by as
     // much as the plane has risen beyond it; held, it goes with the plane.
     const double carried = this->WasTouching
       ? height - this->Height
       : std::max(0.0, height - std::max(this->Height, this->Hand));
-    contact.SurfaceStep = { 0.0, 0.0, carried };
-    const double force = this->Guard.Force(contact, { Stiffness, 10.0 }, this->Settings)[2];
+    contact.Carried = { 0.0, 0.0, carried };
+    const double force = this->Guard.Force(contact, Period, { Stiffness, 10.0 }, this->Settings)[2];
     this->Work += 0.5 * (this->Force + force) * carried;
     this->WasTouching = touching;
     this->Height = height;
@@ -95,7 +95,7 @@ TEST(MovingSurfaceEnergy, ASurfaceThatComesBackUnderAHandAtRestLeavesNoBalance)
     }
     if (tick >= 250 && tick % 250 == 0)
     {
-      ASSERT_NEAR(plane.Guard.GetEnergy(), plane.Work, 1e-12);
+      ASSERT_NEAR(plane.Guard.GetPassivityBalance(), plane.Work, 1e-12);
       ASSERT_NEAR(plane.Work, first, 1e-9) << "tick " << tick;
     }
     ASSERT_FALSE(plane.Guard.GetLimits() & haptics::PassivityDamped) << "tick " << tick;
@@ -166,13 +166,7 @@ public:
     ++this->Ticks;
     this->God->Advance(Period);
     const haptics::Contact& contact = this->God->Update(hand);
-    GuardedContact guarded;
-    guarded.Position = hand;
-    guarded.Displacement = contact.Displacement;
-    guarded.Touching = contact.NumberOfConstraints > 0;
-    guarded.SurfaceStep = contact.Carried;
-    guarded.Period = Period;
-    const Vec3 force = this->Guard.Force(guarded, { Stiffness, 10.0 }, this->Settings);
+    const Vec3 force = this->Guard.Force(contact, Period, { Stiffness, 10.0 }, this->Settings);
     for (std::size_t i = 0; i < 3; ++i)
     {
       this->Work += 0.5 * (this->Force[i] + force[i]) * contact.Carried[i];

@@ -1,7 +1,9 @@
 #ifndef TraceRecorder_h
 #define TraceRecorder_h
 
+#include "TickRecord.h"
 #include "Vec3.h"
+#include "vtkHapticsFiltersModule.h"
 #include "vtkType.h"
 
 #include <cstdint>
@@ -11,28 +13,34 @@ class vtkPolyData;
 
 namespace haptics
 {
-/// One servo tick as a trace tells it; everything in the world frame.
+/// One tick as a trace has it; everything in the world frame.
 struct TraceTick
 {
-  double Time = 0.0; ///< [s] since the servo started
+  double Time = 0.0; ///< [s] since the first tick
   Vec3 Hip{};
   Vec3 GodObject{};
   Vec3 Force{}; ///< on the hand [N], the world's axes
   double Penetration = 0.0;
   double Stiffness = 0.0; ///< in effect [N/m]
-  double Energy = 0.0;    ///< the passivity observer's balance [J]
+  double Energy = 0.0;    ///< what the hand has put in since the first tick and not got out [J]
   double Tank = 0.0;      ///< of surfaces with properties [J]
   std::int64_t Cell = -1; ///< of the surface as it was given
   std::int32_t Surface = -1;
   std::int32_t ActiveConstraints = 0;
+
+  TraceTick() = default;
+  /// `surface` and `cell`: what the record's first constraint belongs to, -1 for none.
+  TraceTick(const TickRecord& record, std::int32_t surface, std::int64_t cell);
 };
 static_assert(sizeof(TraceTick) <= 144, "vtkHapticScene documents 144 bytes a tick");
 
-/// @brief Keeps ticks up to a limit and makes a polyline of them. GUI thread.
-class TraceRecorder
+/// @brief Keeps the ticks of a trace and makes a polyline of them: the one place that names a
+/// trace's arrays. GUI thread.
+class VTKHAPTICSFILTERS_EXPORT TraceRecorder
 {
 public:
   void Clear() { this->Ticks.clear(); }
+  void Reserve(vtkIdType ticks) { this->Ticks.reserve(static_cast<std::size_t>(ticks)); }
   vtkIdType Size() const { return static_cast<vtkIdType>(this->Ticks.size()); }
   void Add(const TraceTick& tick) { this->Ticks.push_back(tick); }
 

@@ -2,7 +2,7 @@
 #define WorkspaceTransform_h
 
 #include "Vec3.h"
-#include "vtkHapticsInteractorsModule.h"
+#include "vtkHapticsCoreModule.h"
 
 #include <array>
 #include <string>
@@ -12,7 +12,7 @@ namespace haptics
 /// @brief Maps the device frame [m] to the world frame: rotation, uniform scale, translation.
 ///
 /// Plain memory, so that it can be handed to the servo thread. The identity by default.
-struct VTKHAPTICSINTERACTORS_EXPORT WorkspaceTransform
+struct VTKHAPTICSCORE_EXPORT WorkspaceTransform
 {
   std::array<double, 9> Rotation{ 1, 0, 0, 0, 1, 0, 0, 0, 1 }; ///< row by row
   double Scale = 1.0;                                          ///< [world unit / m], > 0
@@ -29,6 +29,8 @@ struct VTKHAPTICSINTERACTORS_EXPORT WorkspaceTransform
   Vec3 PointToWorld(const Vec3& point) const noexcept;
   /// A world vector [world unit] in the device frame [m].
   Vec3 VectorToDevice(const Vec3& vector) const noexcept;
+  /// A world vector along the device's axes, its length kept: for normals.
+  Vec3 DirectionToDevice(const Vec3& vector) const noexcept;
   /// A device vector along the world's axes, its length kept: for forces [N].
   Vec3 DirectionToWorld(const Vec3& vector) const noexcept;
 

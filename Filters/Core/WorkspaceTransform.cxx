@@ -79,16 +79,21 @@ Vec3 WorkspaceTransform::PointToWorld(const Vec3& point) const noexcept
     this->Scale * turned[2] + this->Translation[2] };
 }
 
-Vec3 WorkspaceTransform::VectorToDevice(const Vec3& vector) const noexcept
+Vec3 WorkspaceTransform::DirectionToDevice(const Vec3& vector) const noexcept
 {
   Vec3 result;
-  for (int i = 0; i < 3; ++i)
+  for (std::size_t i = 0; i < 3; ++i)
   {
-    result[i] = (this->Rotation[i] * vector[0] + this->Rotation[3 + i] * vector[1] +
-                  this->Rotation[6 + i] * vector[2]) /
-      this->Scale;
+    result[i] = this->Rotation[i] * vector[0] + this->Rotation[3 + i] * vector[1] +
+      this->Rotation[6 + i] * vector[2];
   }
   return result;
+}
+
+Vec3 WorkspaceTransform::VectorToDevice(const Vec3& vector) const noexcept
+{
+  const Vec3 turned = this->DirectionToDevice(vector);
+  return { turned[0] / this->Scale, turned[1] / this->Scale, turned[2] / this->Scale };
 }
 
 Vec3 WorkspaceTransform::DirectionToWorld(const Vec3& vector) const noexcept

@@ -47,6 +47,21 @@ vtkSmartPointer<vtkDoubleArray> Vectors(
 }
 }
 
+TraceTick::TraceTick(const TickRecord& record, std::int32_t surface, std::int64_t cell)
+  : Time(record.Time)
+  , Hip(record.Hip)
+  , GodObject(record.Position)
+  , Force(record.WorldForce)
+  , Penetration(record.Penetration)
+  , Stiffness(record.Stiffness)
+  , Energy(record.Energy)
+  , Tank(record.Tank)
+  , Cell(cell)
+  , Surface(surface)
+  , ActiveConstraints(record.NumberOfConstraints)
+{
+}
+
 void TraceRecorder::Write(vtkPolyData* trace) const
 {
   trace->Initialize();
@@ -60,7 +75,7 @@ void TraceRecorder::Write(vtkPolyData* trace) const
     std::iota(line.begin(), line.end(), 0);
     vtkNew<vtkCellArray> lines;
     lines->InsertNextCell(static_cast<vtkIdType>(line.size()), line.data());
-    trace->SetLines(lines);
+    this->Ticks.size() > 1 ? trace->SetLines(lines) : trace->SetVerts(lines);
   }
   AddScalar<vtkDoubleArray>(trace, "Time", this->Ticks, &TraceTick::Time);
   trace->GetPointData()->AddArray(Vectors("HapticInterfacePoint", this->Ticks, &TraceTick::Hip));

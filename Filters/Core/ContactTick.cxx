@@ -1,0 +1,59 @@
+#include "ContactTick.h"
+
+#include "VectorMath.h"
+
+namespace haptics
+{
+const Contact& ContactTick::Touch(GodObject& god, const Vec3& devicePosition, const Vec3& hip,
+  const WorkspaceTransform& deviceToWorld) noexcept
+{
+  if (!this->IsFirst)
+  {
+    const Vector step = ToVector(devicePosition) - ToVector(this->InDevice.Hip);
+    this->Work -= glm::dot(ToVector(this->Force), step);
+  }
+  this->IsFirst = false;
+  this->DeviceToWorld = deviceToWorld;
+  const Contact& contact = god.Update(hip);
+  this->InDevice = contact;
+  this->InDevice.Hip = devicePosition;
+  this->InDevice.Displacement = deviceToWorld.VectorToDevice(contact.Displacement);
+  this->InDevice.Position =
+    ToVec3(ToVector(devicePosition) + ToVector(this->InDevice.Displacement));
+  this->InDevice.Penetration = glm::length(ToVector(this->InDevice.Displacement));
+  this->InDevice.Carried = deviceToWorld.VectorToDevice(contact.Carried);
+  for (int i = 0; i < contact.NumberOfConstraints; ++i)
+  {
+    this->InDevice.Constraints[i].Normal =
+      deviceToWorld.DirectionToDevice(contact.Constraints[i].Normal);
+  }
+  if (contact.Status == UpdateStatus::InvalidHip)
+  {
+    this->InDevice.Carried = {};
+    this->InDevice.Felt = Feel();
+  }
+  if (contact.Felt.IsShaded)
+  {
+    this->InDevice.Shaded = deviceToWorld.VectorToDevice(contact.Shaded);
+  }
+  return this->InDevice;
+}
+
+void ContactTick::Record(
+  const GodObject& god, const Vec3& force, const SurfaceForce& law, TickRecord& record) noexcept
+{
+  static_cast<Contact&>(record) = god.Current();
+  record.DevicePosition = this->InDevice.Hip;
+  record.Force = force;
+  record.WorldForce = this->DeviceToWorld.DirectionToWorld(force);
+  if (record.NumberOfConstraints > 0)
+  {
+    record.Local = god.LocalPosition(record.Constraints[0].Surface);
+    record.DeformFraction = god.DeformFraction(record.Constraints[0].Surface);
+  }
+  record.Stiffness = law.GetStiffness();
+  record.Energy = this->Work;
+  record.Tank = law.GetTank();
+  this->Force = force;
+}
+}
