@@ -178,7 +178,7 @@ void vtkPVHapticScene::SyncSurfaces()
       filter->SetSide(self.Side);
       representation->Configure(filter);
       filter->SetMergeToleranceIsAbsolute(true);
-      vtkDataSet* data = surface.Actor->GetMapper()->GetInputAsDataSet();
+      vtkDataSet* data = surface.Actor->GetMapper()->GetInput();
       filter->SetMergeTolerance(self.InPieces ? SeamWidth(data, filter->GetMergeTolerance()) : 0.0);
     }
   }

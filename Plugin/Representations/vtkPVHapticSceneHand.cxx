@@ -67,7 +67,7 @@ bool vtkPVHapticScene::Fit()
   for (const Internals::Surface& surface : self.Surfaces)
   {
     auto* shown = surface.Actor && surface.Actor->GetVisibility()
-      ? vtkPolyData::SafeDownCast(surface.Actor->GetMapper()->GetInputAsDataSet())
+      ? vtkPolyData::SafeDownCast(surface.Actor->GetMapper()->GetInput())
       : nullptr;
     if (shown && shown->GetNumberOfPolys() > 0)
     {

@@ -3,9 +3,12 @@
 #include <linux/usbdevice_fs.h>
 
 #include <dlfcn.h>
+#include <fcntl.h>
 #include <pty.h>
 #include <sys/ioctl.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
+#include <sys/sysmacros.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -35,6 +38,19 @@ int RealIoctl(int fd, unsigned long request, void* argument)
   static const auto real =
     reinterpret_cast<int (*)(int, unsigned long, ...)>(dlsym(RTLD_NEXT, "ioctl"));
   return real(fd, request, argument);
+}
+
+/// The device number of an open file. Asked of the kernel itself, since umockdev 0.19 answers fstat()
+/// with what it plays.
+bool FindNode(int fd, dev_t& node)
+{
+  struct statx status = {};
+  if (syscall(SYS_statx, fd, "", AT_EMPTY_PATH, STATX_BASIC_STATS, &status) != 0)
+  {
+    return false;
+  }
+  node = makedev(status.stx_rdev_major, status.stx_rdev_minor);
+  return true;
 }
 
 void Require(bool condition, const char* what)
@@ -118,9 +134,7 @@ void UsbFs::Plug(int port, const FalconModel& model)
   tcgetattr(device.Slave, &settings);
   cfmakeraw(&settings);
   tcsetattr(device.Slave, TCSANOW, &settings);
-  struct stat status;
-  Require(fstat(device.Slave, &status) == 0, "fstat");
-  device.Node = status.st_rdev;
+  Require(FindNode(device.Slave, device.Node), "statx");
 
   std::string node;
   std::string description;
@@ -211,14 +225,14 @@ bool UsbFs::IsDriverDetached()
 
 bool UsbFs::OnIoctl(int fd, unsigned long request, void* argument, int& result)
 {
-  struct stat status;
-  if (fstat(fd, &status) != 0)
+  dev_t node = 0;
+  if (!FindNode(fd, node))
   {
     return false;
   }
   const std::lock_guard<std::mutex> lock(this->Mutex);
   const auto found = std::find_if(this->Devices.begin(), this->Devices.end(),
-    [&](const Device& device) { return device.Node == status.st_rdev; });
+    [&](const Device& device) { return device.Node == node; });
   if (found == this->Devices.end())
   {
     return false;

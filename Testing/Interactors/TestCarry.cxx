@@ -6,6 +6,8 @@
 #include "vtkCubeSource.h"
 #include "vtkPlaneSource.h"
 
+#include <iostream>
+
 int TestCarry(int argc, char* argv[])
 {
   vtkNew<vtkPlaneSource> plane;
@@ -42,8 +44,8 @@ int TestCarry(int argc, char* argv[])
   touch.MoveTo(0.075, -0.005, 0.01);
   if (touch.Scene->GetGrippedSurface() < 0 || touch.Scene->GetForce()[0] > -1.0)
   {
-    cerr << "The block holds nothing: force " << touch.Scene->GetForce()[0]
-         << " N along x, surface " << touch.Scene->GetGrippedSurface() << " gripped" << endl;
+    std::cerr << "The block holds nothing: force " << touch.Scene->GetForce()[0]
+         << " N along x, surface " << touch.Scene->GetGrippedSurface() << " gripped" << '\n';
     return EXIT_FAILURE;
   }
 

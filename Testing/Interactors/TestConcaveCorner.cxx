@@ -6,6 +6,8 @@
 #include "vtkAppendPolyData.h"
 #include "vtkPlaneSource.h"
 
+#include <iostream>
+
 int TestConcaveCorner(int argc, char* argv[])
 {
   //  z |   / y      floor z = 0, walls x = 0 and y = 0, all facing the room
@@ -37,7 +39,7 @@ int TestConcaveCorner(int argc, char* argv[])
   touch.MoveTo(-0.015, -0.012, -0.012);
   if (touch.Scene->GetForce()[0] < 1.0)
   {
-    cerr << "The hand is not in the corner: " << touch.Scene->GetErrorMessage() << endl;
+    std::cerr << "The hand is not in the corner: " << touch.Scene->GetErrorMessage() << '\n';
     return EXIT_FAILURE;
   }
 

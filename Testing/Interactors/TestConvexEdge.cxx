@@ -5,6 +5,8 @@
 
 #include "vtkCubeSource.h"
 
+#include <iostream>
+
 int TestConvexEdge(int argc, char* argv[])
 {
   vtkNew<vtkCubeSource> cube;
@@ -23,8 +25,8 @@ int TestConvexEdge(int argc, char* argv[])
   touch.MoveTo(0.035, 0.02, 0.0);
   if (touch.Scene->GetForce()[0] < 1.0)
   {
-    cerr << "The hand has not gone over the edge: its force is " << touch.Scene->GetForce()[0]
-         << " N to the right." << endl;
+    std::cerr << "The hand has not gone over the edge: its force is " << touch.Scene->GetForce()[0]
+         << " N to the right." << '\n';
     return EXIT_FAILURE;
   }
 

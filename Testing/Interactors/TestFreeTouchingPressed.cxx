@@ -4,6 +4,8 @@
 // HIP.
 #include "ImageTestTools.h"
 
+#include <iostream>
+
 int TestFreeTouchingPressed(int argc, char* argv[])
 {
   const double heights[3] = { 0.045, 0.021, 0.012 }; // of the hand, where the ball's is 0.03
@@ -19,7 +21,7 @@ int TestFreeTouchingPressed(int argc, char* argv[])
     touch.MoveTo(0.07 * (i - 1) + 0.005, -0.01, heights[i]);
     if (touch.Scene->GetTouching() != (i > 0))
     {
-      cerr << "Hand " << i << (i > 0 ? " touches nothing." : " is not free.") << endl;
+      std::cerr << "Hand " << i << (i > 0 ? " touches nothing." : " is not free.") << '\n';
       return EXIT_FAILURE;
     }
   }

@@ -7,6 +7,8 @@
 #include "vtkNew.h"
 #include "vtkSimulatedHapticDevice.h"
 
+#include <iostream>
+
 int TestGodObjectActor(int argc, char* argv[])
 {
   TestBall bump(0.05, 60, 60);
@@ -27,7 +29,7 @@ int TestGodObjectActor(int argc, char* argv[])
   }
   if (!scene->GetTouching())
   {
-    cerr << "The hand does not touch the sphere: " << scene->GetErrorMessage() << endl;
+    std::cerr << "The hand does not touch the sphere: " << scene->GetErrorMessage() << '\n';
     return EXIT_FAILURE;
   }
 

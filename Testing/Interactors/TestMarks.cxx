@@ -9,6 +9,7 @@
 #include "vtkSimulatedHapticDevice.h"
 
 #include <cmath>
+#include <iostream>
 
 int TestMarks(int argc, char* argv[])
 {
@@ -45,7 +46,7 @@ int TestMarks(int argc, char* argv[])
   scene->Step(1);
   if (!scene->GetTouching())
   {
-    cerr << "The hand does not touch the ball: " << scene->GetErrorMessage() << endl;
+    std::cerr << "The hand does not touch the ball: " << scene->GetErrorMessage() << '\n';
     return EXIT_FAILURE;
   }
 

@@ -10,6 +10,8 @@
 #include "vtkMouseHapticDevice.h"
 #include "vtkNew.h"
 
+#include <iostream>
+
 int TestMouseTouch(int argc, char* argv[])
 {
   TestBall ball(30.0, 60, 60); // the workspace is fitted: any unit will do
@@ -51,7 +53,7 @@ int TestMouseTouch(int argc, char* argv[])
   }
   if (!scene->GetTouching())
   {
-    cerr << "The mouse does not touch the ball: " << scene->GetErrorMessage() << endl;
+    std::cerr << "The mouse does not touch the ball: " << scene->GetErrorMessage() << '\n';
     return EXIT_FAILURE;
   }
   return picture.Compare(argc, argv);

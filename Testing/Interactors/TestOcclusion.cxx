@@ -2,6 +2,8 @@
 // ball. Right (SeeThrough off): the ball hides them, and only the tip of the arrow looks over it. Seen to fail when both were seen through, and when neither was.
 #include "ImageTestTools.h"
 
+#include <iostream>
+
 int TestOcclusion(int argc, char* argv[])
 {
   TestBall balls[2] = { { 0.03, 40, 40 }, { 0.03, 40, 40 } };
@@ -17,7 +19,7 @@ int TestOcclusion(int argc, char* argv[])
     touch.MoveTo(x, 0.01, 0.015);
     if (!touch.Scene->GetTouching())
     {
-      cerr << "Hand " << i << " touches nothing." << endl;
+      std::cerr << "Hand " << i << " touches nothing." << '\n';
       return EXIT_FAILURE;
     }
   }

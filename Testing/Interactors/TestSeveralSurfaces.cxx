@@ -5,6 +5,8 @@
 
 #include "vtkPlaneSource.h"
 
+#include <iostream>
+
 int TestSeveralSurfaces(int argc, char* argv[])
 {
   vtkNew<vtkPlaneSource> plane;
@@ -31,8 +33,8 @@ int TestSeveralSurfaces(int argc, char* argv[])
   const double* force = touch.Scene->GetForce();
   if (force[1] > -1.0 || force[2] < 1.0)
   {
-    cerr << "Not held by both: force (" << force[0] << ", " << force[1] << ", " << force[2] << ")"
-         << endl;
+    std::cerr << "Not held by both: force (" << force[0] << ", " << force[1] << ", " << force[2] << ")"
+         << '\n';
     return EXIT_FAILURE;
   }
 

@@ -5,6 +5,8 @@
 
 #include "vtkCubeSource.h"
 
+#include <iostream>
+
 int TestThinPlate(int argc, char* argv[])
 {
   vtkNew<vtkCubeSource> plate;
@@ -23,7 +25,7 @@ int TestThinPlate(int argc, char* argv[])
   touch.MoveTo(0.015, 0.01, -0.025);
   if (touch.Scene->GetForce()[2] < 1.0)
   {
-    cerr << "The plate does not press back: " << touch.Scene->GetForce()[2] << " N" << endl;
+    std::cerr << "The plate does not press back: " << touch.Scene->GetForce()[2] << " N" << '\n';
     return EXIT_FAILURE;
   }
 

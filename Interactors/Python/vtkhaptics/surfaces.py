@@ -1,7 +1,10 @@
 """Reads a surface from a file and says clearly what is wrong with one that cannot be touched."""
 
+import contextlib
 import os
 import re
+import shutil
+import tempfile
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
@@ -90,8 +93,10 @@ def _refuse_enormous(path):
         )
 
 
-def _refuse_false_stl_count(path):
-    """vtkSTLReader takes memory for as many triangles as a binary file says, and ends the process
+def _check_stl_count(path):
+    """The number of bytes after the last triangle of a binary file; 0 for a text.
+
+    vtkSTLReader takes memory for as many triangles as a binary file says, and ends the process
     where there is not so much. Zero is what programs write that do not know it yet: read to the end.
     """
     size = os.path.getsize(path)
@@ -100,13 +105,28 @@ def _refuse_false_stl_count(path):
     # As VTK tells them apart. Not by 'solid': headers of binary files begin with it too.
     text = bytes([*range(0x20, 0x80), *b"\t\n\r"])
     if len(start) < 84 or len(start.translate(None, delete=text)) < 0.05 * len(start):
-        return
+        return 0
     told, held = int.from_bytes(start[80:84], "little"), (size - 84) // 50
     if told not in (0, held):
         raise SurfaceError(
             f"{path}: says that it holds {told:,} triangles, but its {size:,} bytes are those of "
             f"{held:,}. It was cut short, or is no binary STL: get or save it again."
         )
+    return (size - 84) % 50
+
+
+@contextlib.contextmanager
+def _without_end(path, size):
+    """A path to the same file without its last `size` bytes."""
+    if size == 0:
+        yield path
+        return
+    with tempfile.NamedTemporaryFile(suffix=os.path.splitext(path)[1]) as copy:
+        with open(path, "rb") as file:
+            shutil.copyfileobj(file, copy)
+        copy.truncate(os.path.getsize(path) - size)
+        copy.flush()
+        yield copy.name
 
 
 def _read_gifti(path):
@@ -211,11 +231,12 @@ def read_surface(path, progress=None):
             f"Convert it to one of {', '.join(FORMATS)}."
         )
     _refuse_enormous(path)
-    if extension == ".stl":
-        _refuse_false_stl_count(path)
+    # VTK 9.6 refuses a binary STL with bytes after its last triangle; some programs write them.
+    surplus = _check_stl_count(path) if extension == ".stl" else 0
     reader = READERS[extension]()
-    reader.SetFileName(path)
-    errors = run_reader(reader, progress)
+    with _without_end(path, surplus) as whole:
+        reader.SetFileName(whole)
+        errors = run_reader(reader, progress)
     if errors:
         raise SurfaceError(
             f"{path}: could not be read as {extension[1:].upper()}: {errors[0]} "

@@ -19,6 +19,7 @@
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMSessionProxyManager.h"
 #include "vtkSMSourceProxy.h"
+#include "vtkSMViewLayoutProxy.h"
 #include "vtkSMViewProxy.h"
 
 #include <QAction>
@@ -223,7 +224,13 @@ void startAnew()
     pqApplicationCore::instance()->getServerManagerModel()->findItems<pqView*>();
   for (pqView* view : views)
   {
+    // ParaView 6 leaves a layout split where its views are destroyed.
+    auto* layout = vtkSMViewLayoutProxy::FindLayout(view->getViewProxy());
     builder->destroy(view);
+    if (layout && layout->GetViews().empty())
+    {
+      layout->Reset();
+    }
   }
   pqView* view =
     builder->createView(pqRenderView::renderViewType(), pqActiveObjects::instance().activeServer());
