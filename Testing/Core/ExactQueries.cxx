@@ -1,9 +1,9 @@
 #include "ExactQueries.h"
 
 #include "AnalyticSurfaces.h"
+#include "ExactSigns.h"
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/squared_distance_3.h>
 
 #include <algorithm>
@@ -14,23 +14,11 @@ namespace haptics::testing
 {
 namespace
 {
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point = Kernel::Point_3;
-
-Point ToPoint(const Vec3& v)
-{
-  return { v[0], v[1], v[2] };
-}
-
-int Side(const Point& a, const Point& b, const Point& c, const Point& d)
-{
-  return static_cast<int>(CGAL::orientation(a, b, c, d));
-}
-
 /// Signs of the line p-q against the three edges: 1 inside, 0 on an edge, -1 outside.
-int LineInTriangle(const Point& p, const Point& q, const Point& a, const Point& b, const Point& c)
+int LineInTriangle(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c)
 {
-  const std::array<int, 3> signs{ Side(p, q, a, b), Side(p, q, b, c), Side(p, q, c, a) };
+  const std::array<int, 3> signs{ SignOfVolume(p, q, a, b), SignOfVolume(p, q, b, c),
+    SignOfVolume(p, q, c, a) };
   const auto [low, high] = std::minmax_element(signs.begin(), signs.end());
   if (*low < 0 && *high > 0)
   {
@@ -75,8 +63,7 @@ bool ExactQueries::VisitBoxes(const Bounds& box, const Visitor& visit) const
     {
       const auto& [a, b1, c] = this->Surface->Triangles()[i];
       const auto& points = this->Points;
-      if (visit(ToPoint(points[a]), ToPoint(points[b1]), ToPoint(points[c]),
-            static_cast<std::int32_t>(i)))
+      if (visit(points[a], points[b1], points[c], static_cast<std::int32_t>(i)))
       {
         return true;
       }
@@ -87,19 +74,19 @@ bool ExactQueries::VisitBoxes(const Bounds& box, const Visitor& visit) const
 
 bool ExactQueries::Crosses(const Vec3& from, const Vec3& to) const
 {
-  const Point p = ToPoint(from);
-  const Point q = ToPoint(to);
+  const Vec3& p = from;
+  const Vec3& q = to;
   Bounds box;
   for (int k = 0; k < 3; ++k)
   {
-    box.Low[k] = std::min(from[k], to[k]);
-    box.High[k] = std::max(from[k], to[k]);
+    box.Low[k] = std::min(p[k], q[k]);
+    box.High[k] = std::max(p[k], q[k]);
   }
   return this->VisitBoxes(box,
-    [&](const Point& a, const Point& b, const Point& c, std::int32_t triangle)
+    [&](const Vec3& a, const Vec3& b, const Vec3& c, std::int32_t triangle)
     {
-      const int before = Side(a, b, c, p);
-      const int after = Side(a, b, c, q);
+      const int before = SignOfVolume(a, b, c, p);
+      const int after = SignOfVolume(a, b, c, q);
       const bool both = this->Surface->TouchesBack(triangle);
       // Where both sides are touched, a point comes onto a triangle only within its plane, around
       // its rim, and may leave to either side.
@@ -111,14 +98,14 @@ bool ExactQueries::Crosses(const Vec3& from, const Vec3& to) const
 
 bool ExactQueries::IsInside(const Vec3& point) const
 {
-  const Point p = ToPoint(point);
+  const Vec3& p = point;
   // A ray through an edge or a corner says nothing: take another.
   for (int attempt = 0; attempt < 16; ++attempt)
   {
     const double reach = 4.0 * this->Surface->Radius() + 2.0 * Length(point);
     const Vec3 end =
       point + reach * Unit({ 0.577 + 0.013 * attempt, 0.313 - 0.17 * attempt, 0.7547 });
-    const Point q = ToPoint(end);
+    const Vec3& q = end;
     Bounds box;
     for (int k = 0; k < 3; ++k)
     {
@@ -127,10 +114,10 @@ bool ExactQueries::IsInside(const Vec3& point) const
     }
     int crossings = 0;
     const bool isDegenerate = this->VisitBoxes(box,
-      [&](const Point& a, const Point& b, const Point& c, std::int32_t)
+      [&](const Vec3& a, const Vec3& b, const Vec3& c, std::int32_t)
       {
-        const int before = Side(a, b, c, p);
-        const int after = Side(a, b, c, q);
+        const int before = SignOfVolume(a, b, c, p);
+        const int after = SignOfVolume(a, b, c, q);
         if (before * after > 0 || (before == 0 && after == 0))
         {
           return false;

@@ -6,7 +6,8 @@
 namespace haptics::testing
 {
 /// @brief Exact answers about a surface that share no code with the contact update: every box is
-/// looked at, and CGAL's rational arithmetic decides.
+/// looked at, and ExactSigns decides. For many questions about one surface that stands still, Judge
+/// is faster.
 ///
 /// Points are in the surface's local frame.
 class ExactQueries

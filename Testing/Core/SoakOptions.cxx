@@ -10,10 +10,13 @@ namespace
 [[noreturn]] void End(const char* program, long shortTicks, long longTicks, int status)
 {
   std::fprintf(status ? stderr : stdout,
-    "Usage: %s [--ticks N] [--seed N] [--scene NAME]\n\n"
+    "Usage: %s [--ticks N] [--seed N] [--scene NAME] [--kind NAME] [--episode N] [--press N]\n\n"
     "  --ticks N    for each scene and kind of way, at least 1; default %ld, the long form %ld\n"
     "  --seed N     of the random ways and motions; default 1. A failure prints it.\n"
-    "  --scene NAME only this scene, as the table names it\n",
+    "  --scene NAME only this scene, as the table names it\n"
+    "  --kind NAME  only this kind of way, as the table names it\n"
+    "  --episode N  only this stroke, as a failure prints it, and every tick of it\n"
+    "  --press N    one in so many ticks in contact is pressed again; 0: none; default 10\n",
     program, shortTicks, longTicks);
   std::exit(status);
 }
@@ -40,8 +43,11 @@ SoakOptions SoakOptions::Parse(int argc, char* argv[], long shortTicks, long lon
     }
     const char* const value = i + 1 < argc ? argv[++i] : "";
     long seed = 1;
+    long press = 10;
     const bool isGood = (name == "--ticks" && Read(value, 1, options.Ticks)) ||
-      (name == "--seed" && Read(value, 0, seed)) || (name == "--scene" && *value);
+      (name == "--seed" && Read(value, 0, seed)) || (name == "--scene" && *value) ||
+      (name == "--kind" && *value) || (name == "--episode" && Read(value, 0, options.Episode)) ||
+      (name == "--press" && Read(value, 0, press));
     if (!isGood)
     {
       std::fprintf(stderr, "wrong: %s %s\n\n", name.c_str(), value);
@@ -54,6 +60,14 @@ SoakOptions SoakOptions::Parse(int argc, char* argv[], long shortTicks, long lon
     else if (name == "--scene")
     {
       options.Scene = value;
+    }
+    else if (name == "--kind")
+    {
+      options.Kind = value;
+    }
+    else if (name == "--press")
+    {
+      options.PressEvery = static_cast<int>(press);
     }
   }
   return options;

@@ -11,6 +11,9 @@ struct SoakOptions
   long Ticks = 0;    ///< for each scene and kind of way, >= 1
   unsigned Seed = 1; ///< of what is random
   std::string Scene; ///< only this one; empty: all
+  std::string Kind;  ///< only this kind of way; empty: all
+  long Episode = -1; ///< only this one of a judged soak, every tick printed; < 0: all
+  int PressEvery = 10; ///< of so many contact ticks of a judged soak one is pressed again; 0: none
 
   bool Chooses(const char* scene) const { return this->Scene.empty() || this->Scene == scene; }
 
