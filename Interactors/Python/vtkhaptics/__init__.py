@@ -46,17 +46,22 @@ from .errors import HapticsError, HapticsWarning
 
 globals().update(CLASSES)
 
+from .device import HapticDevice, share
 from .meshes import polydata
 from .plotting import enable
+from .sharing import SharedHand
 from .touching import touch
 from .tracing import Trace, trace
 
 __all__ = [
+    "HapticDevice",
     "HapticsError",
     "HapticsWarning",
+    "SharedHand",
     "Trace",
     "enable",
     "polydata",
+    "share",
     "touch",
     "trace",
     *CLASSES,

@@ -32,6 +32,7 @@ OUTPUTS = {
     "vtkSimulatedHapticDevice": {"GetPositionAt": (3,)},
     "vtkRecordedHapticDevice": {"GetTick": (None, 3, 3)},
     "vtkMouseHapticDevice": {"GetTarget": (3,)},
+    "vtkSharedHapticDevice": {"Exchange": (3,)},
     "vtkHapticServo": {
         name: (3,)
         for name in (

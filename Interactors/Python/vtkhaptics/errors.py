@@ -130,7 +130,9 @@ def _pass_on(now, caller):
             _note(first, other)
         raise first from error
     if error:
-        raise error
+        # A device in Python keeps what its program raised.
+        causes = (getattr(reporter, "failure", None) for reporter, _ in now.errors)
+        raise error from next((cause for cause in causes if cause), None)
 
 
 def _note(error, other):
