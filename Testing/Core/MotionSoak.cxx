@@ -1,10 +1,12 @@
 // Moves a god-object along random ways among surfaces that move and deform at random, and asks
-// exact arithmetic in every tick whether it is on the side where it was. Prints a table; exits with
-// 1 when anything leaked or popped. `--help` tells how to run it for long.
+// exact arithmetic in every tick whether it is on the side where it was, and whether what holds it
+// is there. Prints a table; exits with 1 when anything leaked or popped. `--help` tells how to run
+// it for long.
 #include "AnalyticSurfaces.h"
 #include "ExactQueries.h"
 #include "GodObject.h"
 #include "HipPath.h"
+#include "Judge.h"
 #include "SoakOptions.h"
 #include "SurfaceDeformer.h"
 
@@ -75,7 +77,8 @@ const std::vector<Scene>& AllScenes()
 
 struct Tally
 {
-  long Ticks = 0, Contacts = 0, Leaks = 0, Pops = 0, Away = 0, Squeezed = 0, Overloads = 0;
+  long Ticks = 0, Contacts = 0, Leaks = 0, Pops = 0, Away = 0, Phantoms = 0, Squeezed = 0,
+       Overloads = 0;
 };
 
 /// One part of a scene and how it moves.
@@ -193,6 +196,59 @@ std::vector<Vec3> PointsInWorld(const GodObject& god, int surface)
   return points;
 }
 
+/// All surfaces as they are now, in the world.
+Judge JudgeInWorld(const GodObject& god)
+{
+  std::vector<Vec3> points;
+  std::vector<Triangle> triangles;
+  std::vector<bool> backs;
+  for (std::size_t i = 0; i < god.Surfaces().size(); ++i)
+  {
+    const TriangleSurface& surface = *god.Surfaces()[i].Surface;
+    const auto first = static_cast<std::int32_t>(points.size());
+    const std::vector<Vec3> more = PointsInWorld(god, static_cast<int>(i));
+    points.insert(points.end(), more.begin(), more.end());
+    for (std::size_t t = 0; t < surface.Triangles().size(); ++t)
+    {
+      const auto& [a, b, c] = surface.Triangles()[t];
+      triangles.push_back({ first + a, first + b, first + c });
+      backs.push_back(surface.TouchesBack(static_cast<std::int32_t>(t)));
+    }
+  }
+  return Judge(std::move(points), std::move(triangles), std::move(backs));
+}
+
+/// Whether the god-object is held in plain view of the HIP, also while all stands still for some
+/// ticks.
+bool IsPhantom(GodObject& god, const Vec3& hip)
+{
+  constexpr double clearances = 16.0;
+  constexpr int rest = 8;
+  double near = 0.0;
+  double rounding = 0.0;
+  for (const TouchedSurface& touched : god.Surfaces())
+  {
+    const double clearance = touched.Surface->Clearance();
+    near = std::max(near, clearances * clearance);
+    // Poses are rounded in the world.
+    rounding = std::max(rounding, 0x1p-50 * Length(touched.Surface->Origin()) / clearance);
+  }
+  const Contact& contact = god.Current();
+  const auto isHeld = [&]
+  { return contact.Status == UpdateStatus::Touching && contact.Penetration > near; };
+  if (rounding > 0.25 || !isHeld())
+  {
+    return false;
+  }
+  const Judge judge = JudgeInWorld(god);
+  near = std::max(near, clearances * judge.LargestSliverClearance());
+  for (int tick = 0; tick < rest && isHeld() && judge.IsInPlainView(hip, contact.Position); ++tick)
+  {
+    god.Update(hip);
+  }
+  return isHeld() && judge.IsInPlainView(hip, contact.Position);
+}
+
 void Run(const Scene& scene, HipPath::Kind kind, long ticks, unsigned seed, Tally& tally)
 {
   std::deque<Actor> actors;
@@ -285,8 +341,16 @@ void Run(const Scene& scene, HipPath::Kind kind, long ticks, unsigned seed, Tall
       std::printf("AWAY  %s, %s, tick %ld, seed %u: %g\n", scene.Name, HipPath::NameOf(kind), tick,
         seed, Length(contact.Position - hip) - Length(carried - hip));
     }
-    positionBefore = contact.Position;
     ++tally.Ticks;
+    if (IsPhantom(*god, hip))
+    {
+      ++tally.Phantoms;
+      std::printf("PHANTOM  %s, %s, tick %ld, seed %u: at { %.17g, %.17g, %.17g }, "
+                  "HIP { %.17g, %.17g, %.17g }\n",
+        scene.Name, HipPath::NameOf(kind), tick, seed, contact.Position[0], contact.Position[1],
+        contact.Position[2], hip[0], hip[1], hip[2]);
+    }
+    positionBefore = contact.Position;
     tally.Contacts += contact.Status == UpdateStatus::Touching;
     tally.Squeezed += isSqueezed;
     tally.Overloads += contact.Status == UpdateStatus::Overloaded;
@@ -297,13 +361,13 @@ void Run(const Scene& scene, HipPath::Kind kind, long ticks, unsigned seed, Tall
 int main(int argc, char* argv[])
 {
   const SoakOptions options = SoakOptions::Parse(argc, argv, 400, 40000);
-  std::printf("%-32s %10s %10s %6s %6s %6s %9s %9s   (seed %u)\n", "scene", "ticks", "contacts",
-    "leaks", "pops", "away", "squeezed", "overloads", options.Seed);
+  std::printf("%-32s %10s %10s %6s %6s %6s %8s %9s %9s   (seed %u)\n", "scene", "ticks", "contacts",
+    "leaks", "pops", "away", "phantoms", "squeezed", "overloads", options.Seed);
   Tally all;
   const auto print = [](const char* name, const Tally& t)
   {
-    std::printf("%-32s %10ld %10ld %6ld %6ld %6ld %9ld %9ld\n", name, t.Ticks, t.Contacts, t.Leaks,
-      t.Pops, t.Away, t.Squeezed, t.Overloads);
+    std::printf("%-32s %10ld %10ld %6ld %6ld %6ld %8ld %9ld %9ld\n", name, t.Ticks, t.Contacts,
+      t.Leaks, t.Pops, t.Away, t.Phantoms, t.Squeezed, t.Overloads);
     std::fflush(stdout);
   };
   for (const Scene& scene : AllScenes())
@@ -323,9 +387,11 @@ int main(int argc, char* argv[])
     all.Leaks += tally.Leaks;
     all.Pops += tally.Pops;
     all.Away += tally.Away;
+    all.Phantoms += tally.Phantoms;
     all.Squeezed += tally.Squeezed;
     all.Overloads += tally.Overloads;
   }
   print("all", all);
-  return all.Ticks > 0 && all.Leaks == 0 && all.Pops == 0 && all.Away == 0 ? 0 : 1;
+  return all.Ticks > 0 && all.Leaks == 0 && all.Pops == 0 && all.Away == 0 && all.Phantoms == 0 ? 0
+                                                                                                : 1;
 }
