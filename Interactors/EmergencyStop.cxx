@@ -29,6 +29,27 @@ thread_local ServoCycle* OwnCycle = nullptr;
 #ifdef __unix__
 std::array<struct sigaction, EndingSignals.size()> Previous;
 
+// SIGINT that came, that CountInterrupts() has returned, and until when somebody listens [ms].
+std::atomic<std::uint32_t> Interrupts{ 0 };
+std::atomic<std::uint32_t> HeardInterrupts{ 0 };
+std::atomic<std::int64_t> ListensUntil{ 0 };
+static_assert(std::atomic<std::int64_t>::is_always_lock_free, "used in signal handlers");
+
+/// Safe in a signal handler.
+std::int64_t Milliseconds() noexcept
+{
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return 1000 * static_cast<std::int64_t>(now.tv_sec) + now.tv_nsec / 1000000;
+}
+
+/// Whether an event loop takes this SIGINT for its end.
+bool IsHeard() noexcept
+{
+  const std::uint32_t before = Interrupts.fetch_add(1);
+  return before == HeardInterrupts.load() && Milliseconds() < ListensUntil.load();
+}
+
 void Sleep(long nanoseconds) noexcept
 {
   const timespec time{ 0, nanoseconds };
@@ -61,6 +82,7 @@ void HandleSignal(int signal, siginfo_t* information, void* context)
 {
   const int error = errno;
   StopAllServos();
+  const bool isHeard = signal == SIGINT && IsHeard();
   for (std::size_t i = 0; i < EndingSignals.size(); ++i)
   {
     if (EndingSignals[i] != signal)
@@ -76,7 +98,7 @@ void HandleSignal(int signal, siginfo_t* information, void* context)
     {
       previous.sa_handler(signal);
     }
-    else
+    else if (!isHeard)
     {
       sigaction(signal, &previous, nullptr);
       raise(signal);
@@ -140,6 +162,19 @@ void EmergencyStop::Install()
   }
   static const bool isRegistered = std::atexit(HandleExit) == 0;
   (void)isRegistered;
+}
+
+std::uint32_t EmergencyStop::CountInterrupts() noexcept
+{
+#ifdef __unix__
+  constexpr std::int64_t Patience = 1000; // [ms]: longer than it takes to draw a picture
+  ListensUntil.store(Milliseconds() + Patience);
+  const std::uint32_t count = Interrupts.load();
+  HeardInterrupts.store(count);
+  return count;
+#else
+  return 0;
+#endif
 }
 
 EmergencyStop::EmergencyStop(ServoCycle& cycle) noexcept

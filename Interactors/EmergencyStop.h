@@ -18,12 +18,20 @@ class ServoCycle;
 /// (Python's KeyboardInterrupt, for one), and where nothing did the process dies of it. A signal
 /// that is ignored stays so. SIGKILL and a crash of the machine cannot be caught: there a device
 /// must time out by itself.
+///
+/// A window ends in order at SIGINT (Ctrl-C): while something calls CountInterrupts() again and
+/// again, a process that has no handler of its own for SIGINT does not die of it. The next SIGINT
+/// does end it where that one was not heard.
 class VTKHAPTICSINTERACTORS_EXPORT EmergencyStop
 {
 public:
   /// Takes the process's signals, exit and terminate. To be called at each start of a servo, since
   /// others may have put their handlers in place since. GUI thread.
   static void Install();
+
+  /// How often SIGINT has come since the first Install(). Who sees it grow ends its event loop. GUI
+  /// thread; it listens for a second after each call.
+  static std::uint32_t CountInterrupts() noexcept;
 
   ///@{
   /// A servo thread holds one while it runs `cycle`. Servo thread, wait-free.

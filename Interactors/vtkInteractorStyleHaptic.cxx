@@ -1,5 +1,7 @@
 #include "vtkInteractorStyleHaptic.h"
 
+#include "EmergencyStop.h"
+#include "TypedKey.h"
 #include "vtkCallbackCommand.h"
 #include "vtkCamera.h"
 #include "vtkCommand.h"
@@ -13,15 +15,20 @@
 #include "vtkRenderWindowInteractor.h"
 #include "vtkRenderer.h"
 #include "vtkRendererCollection.h"
+#include "vtkTimerLog.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 vtkStandardNewMacro(vtkInteractorStyleHaptic);
 
 namespace
 {
+constexpr double LeastRest = 0.004; // [s] between two pictures, for the events
+constexpr double RestShare = 0.15;  // of the time that the last picture took
+
 constexpr const char* MouseHelp = "move         hand, in the plane of the view\n"
                                   "wheel        hand to the surface, then into it\n"
                                   "space held   stroke the surface\n"
@@ -39,8 +46,8 @@ constexpr const char* KeysHelp = "drag         turn the camera (Shift: pan, Ctrl
                                  "t   g        touched triangles, colours of the force\n"
                                  "r   f        reset the camera, fly to the cursor\n"
                                  "w   s        wireframe, surface\n"
-                                 "?            this help\n"
-                                 "q            quit";
+                                 "?   F1       this help\n"
+                                 "q   e        quit";
 }
 
 vtkInteractorStyleHaptic::vtkInteractorStyleHaptic()
@@ -129,23 +136,41 @@ void vtkInteractorStyleHaptic::OnInteractorEvent(
     case vtkCommand::TimerEvent:
       if (self->TimerId && callData && *static_cast<int*>(callData) == self->TimerId)
       {
-        self->UpdateScene();
+        if (haptics::EmergencyStop::CountInterrupts() != self->InterruptsBefore)
+        {
+          self->Interrupted = true;
+          self->Interactor->ExitCallback();
+        }
+        else
+        {
+          self->UpdateScene();
+        }
         // The trackball takes any timer for its own and would go on turning the camera. Last, as
         // a render sends this command events that clear the flag.
         self->InteractorCallback->SetAbortFlag(1);
       }
       break;
     case vtkCommand::ExitEvent:
-      self->StopTimer();
-      self->Scene->Release();
+      self->Exit();
       break;
     case vtkCommand::DeleteEvent:
       self->Scene->Release();
       self->TimerId = 0;
+      self->SleepingTimerId = 0;
       break;
     default:
       self->StartTimer();
   }
+}
+
+void vtkInteractorStyleHaptic::Exit()
+{
+  // VTK does not bear that a timer is destroyed while it fires, as it may do now.
+  this->SleepingTimerId = this->TimerId;
+  this->TimerId = 0;
+  this->Scene->Release();
+  // As the interactor does by itself where nobody observes ExitEvent.
+  this->Interactor->TerminateApp();
 }
 
 void vtkInteractorStyleHaptic::StartTimer()
@@ -155,6 +180,13 @@ void vtkInteractorStyleHaptic::StartTimer()
   if (!this->TimerId && !this->StartingTimer && this->Interactor &&
     this->Interactor->GetInitialized() && !this->Interactor->GetDone())
   {
+    haptics::EmergencyStop::Install();
+    this->InterruptsBefore = haptics::EmergencyStop::CountInterrupts();
+    std::swap(this->TimerId, this->SleepingTimerId);
+    if (this->TimerId)
+    {
+      return; // the event loop has started again
+    }
     // Creating a timer modifies the interactor, whose event comes back here.
     this->StartingTimer = true;
     const double period = std::ceil(1000.0 / this->MaximumFrameRate);
@@ -166,10 +198,13 @@ void vtkInteractorStyleHaptic::StartTimer()
 
 void vtkInteractorStyleHaptic::StopTimer()
 {
-  if (this->TimerId)
+  for (int* timer : { &this->TimerId, &this->SleepingTimerId })
   {
-    this->Interactor->DestroyTimer(this->TimerId);
-    this->TimerId = 0;
+    if (*timer)
+    {
+      this->Interactor->DestroyTimer(*timer);
+      *timer = 0;
+    }
   }
 }
 
@@ -267,41 +302,163 @@ void vtkInteractorStyleHaptic::ToggleLook(char key)
 bool vtkInteractorStyleHaptic::UpdateScene()
 {
   this->ConnectMouse();
-  if (!this->Scene->Update())
-  {
-    return false;
-  }
+  this->MustRender = this->Scene->Update() || this->MustRender;
   vtkRenderer* renderer = this->FindRenderer();
   this->Watch(renderer);
-  if (!renderer || !this->Interactor->GetInitialized())
+  if (!this->MustRender || !renderer || !this->Interactor->GetInitialized() ||
+    vtkTimerLog::GetUniversalTime() < this->RestsUntil)
   {
     return false;
   }
+  this->MustRender = false;
+  this->Render(renderer);
+  return true;
+}
+
+void vtkInteractorStyleHaptic::Render(vtkRenderer* renderer)
+{
+  const double begin = vtkTimerLog::GetUniversalTime();
   renderer->ResetCameraClippingRange();
   ++this->NumberOfRenders;
   this->Interactor->Render();
-  return true;
+  // Before VTK 9.4 the X11 event loop looks at one event, then at the timers. Without a rest a
+  // timer that draws for longer than its period would let in one event a picture.
+  const double end = vtkTimerLog::GetUniversalTime();
+  this->RestsUntil = end + std::max(LeastRest, RestShare * (end - begin));
+}
+
+void vtkInteractorStyleHaptic::RenderSoon()
+{
+  if (this->TimerId)
+  {
+    this->MustRender = true;
+  }
+  else
+  {
+    this->Interactor->Render();
+  }
+}
+
+template <typename Function>
+void vtkInteractorStyleHaptic::DrawLater(Function handle)
+{
+  if (!this->TimerId || !this->Interactor->GetEnableRender())
+  {
+    handle();
+    return;
+  }
+  // The trackball draws at every event; of a turn of the wheel that is one picture a notch, which
+  // on a large surface goes on long after the wheel has stopped.
+  vtkSmartPointer<vtkRenderWindowInteractor> interactor = this->Interactor;
+  vtkCamera* camera = this->CurrentRenderer ? this->CurrentRenderer->GetActiveCamera() : nullptr;
+  const vtkMTimeType before = camera ? camera->GetMTime() : 0;
+  const int state = this->State;
+  interactor->EnableRenderOff();
+  handle();
+  interactor->EnableRenderOn();
+  vtkCamera* after = this->CurrentRenderer ? this->CurrentRenderer->GetActiveCamera() : nullptr;
+  this->MustRender = this->MustRender || state != this->State || after != camera ||
+    (after && after->GetMTime() != before);
+}
+
+void vtkInteractorStyleHaptic::OnMouseMove()
+{
+  this->DrawLater([this] { this->Superclass::OnMouseMove(); });
+}
+
+void vtkInteractorStyleHaptic::OnLeftButtonDown()
+{
+  this->DrawLater([this] { this->Superclass::OnLeftButtonDown(); });
+}
+
+void vtkInteractorStyleHaptic::OnLeftButtonUp()
+{
+  this->DrawLater([this] { this->Superclass::OnLeftButtonUp(); });
+}
+
+void vtkInteractorStyleHaptic::OnMiddleButtonDown()
+{
+  this->DrawLater([this] { this->Superclass::OnMiddleButtonDown(); });
+}
+
+void vtkInteractorStyleHaptic::OnMiddleButtonUp()
+{
+  this->DrawLater([this] { this->Superclass::OnMiddleButtonUp(); });
+}
+
+void vtkInteractorStyleHaptic::OnRightButtonDown()
+{
+  this->DrawLater([this] { this->Superclass::OnRightButtonDown(); });
+}
+
+void vtkInteractorStyleHaptic::OnRightButtonUp()
+{
+  this->DrawLater([this] { this->Superclass::OnRightButtonUp(); });
+}
+
+void vtkInteractorStyleHaptic::OnMouseWheelForward()
+{
+  this->DrawLater([this] { this->Superclass::OnMouseWheelForward(); });
+}
+
+void vtkInteractorStyleHaptic::OnMouseWheelBackward()
+{
+  this->DrawLater([this] { this->Superclass::OnMouseWheelBackward(); });
+}
+
+void vtkInteractorStyleHaptic::Engage()
+{
+  if (this->Scene->IsEngaged())
+  {
+    this->Scene->Release();
+    return;
+  }
+  vtkRenderer* renderer = this->FindRenderer();
+  this->Scene->EngageInView(renderer ? renderer->GetActiveCamera() : nullptr);
+}
+
+void vtkInteractorStyleHaptic::ToggleTrail()
+{
+  vtkGodObjectActor* actor = this->Scene->GetGodObjectActor();
+  actor->SetShowTrail(!actor->GetShowTrail());
+  if (!actor->GetShowTrail())
+  {
+    actor->ClearTrail();
+  }
+}
+
+void vtkInteractorStyleHaptic::ToggleGrip()
+{
+  if (this->Scene->GetGrippedSurface() >= 0)
+  {
+    this->Scene->LetGo();
+  }
+  else
+  {
+    this->Scene->Grip();
+  }
 }
 
 void vtkInteractorStyleHaptic::OnChar()
 {
-  switch (this->Interactor->GetKeyCode())
+  haptics::ReportedKey reported;
+  reported.Code = this->Interactor->GetKeyCode();
+  reported.Symbol = this->Interactor->GetKeySym();
+  reported.Shift = this->Interactor->GetShiftKey() != 0;
+  reported.IgnoresShift = this->Interactor->IsA("vtkXRenderWindowInteractor");
+  const char key = haptics::TypedKey(reported);
+  if (this->Interactor->GetControlKey() || this->Interactor->GetAltKey())
+  {
+    return; // no command of ours nor of VTK's, but perhaps one of the program's
+  }
+  switch (key)
   {
     case 'h':
     case 'H':
-      if (this->Scene->IsEngaged())
-      {
-        this->Scene->Release();
-      }
-      else
-      {
-        vtkRenderer* renderer = this->FindRenderer();
-        this->Scene->EngageInView(renderer ? renderer->GetActiveCamera() : nullptr);
-      }
+      this->Engage();
       break;
     case '?':
       this->ToggleHelp();
-      this->Interactor->Render();
       break;
     case 'v':
     case 'V':
@@ -312,16 +469,8 @@ void vtkInteractorStyleHaptic::OnChar()
       break;
     case 'b':
     case 'B':
-    {
-      vtkGodObjectActor* actor = this->Scene->GetGodObjectActor();
-      actor->SetShowTrail(!actor->GetShowTrail());
-      if (!actor->GetShowTrail())
-      {
-        actor->ClearTrail();
-      }
-      this->Interactor->Render();
+      this->ToggleTrail();
       break;
-    }
     case 'd':
     case 'D':
       this->Scene->DropLandmark();
@@ -336,18 +485,11 @@ void vtkInteractorStyleHaptic::OnChar()
       break;
     case 'x':
     case 'X':
-      if (this->Scene->GetGrippedSurface() >= 0)
-      {
-        this->Scene->LetGo();
-      }
-      else
-      {
-        this->Scene->Grip();
-      }
+      this->ToggleGrip();
       break;
     case '+':
     case '-':
-      this->Scene->ScaleWorkspace(this->Interactor->GetKeyCode() == '+' ? 1.25 : 0.8);
+      this->Scene->ScaleWorkspace(key == '+' ? 1.25 : 0.8);
       break;
     case '0':
       this->Scene->ResetWorkspace();
@@ -358,18 +500,21 @@ void vtkInteractorStyleHaptic::OnChar()
     case 'T':
     case 'g':
     case 'G':
-      this->ToggleLook(this->Interactor->GetKeyCode());
-      this->Interactor->Render();
+      this->ToggleLook(key);
       break;
     default:
-      this->Superclass::OnChar();
+      this->DrawLater([this] { this->Superclass::OnChar(); });
+      this->MustRender = this->TimerId != 0; // it may have changed what is drawn; none: the end
+      return;
   }
+  this->RenderSoon();
 }
 
 void vtkInteractorStyleHaptic::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "MaximumFrameRate [1/s]: " << this->MaximumFrameRate << "\n";
+  os << indent << "Interrupted: " << (this->Interrupted ? "yes" : "no") << "\n";
   os << indent << "TimerId: " << this->TimerId << "\n";
   os << indent << "NumberOfRenders: " << this->NumberOfRenders << "\n";
   os << indent << "Scene:\n";

@@ -19,13 +19,26 @@
  * - o: see the hand through the surface or not
  * - t: highlight the triangles touched
  * - g: colour the force by its strength, with a legend
- * - ?: show or hide the list of all keys
+ * - ? or F1: show or hide the list of all keys
+ * - q, e: end, as the window's close button and Ctrl-C do
+ *
+ * Keys are taken as they are typed on US, British, German, French, Italian, Spanish and Nordic
+ * keyboards and on keypads, whatever VTK reports of them: on X11 it reports keys as they
+ * are without Shift.
  *
  * A vtkMouseHapticDevice that is the scene's device is connected to the interactor; it takes the
  * wheel and the space bar for itself while it is open.
  *
- * When the interactor exits (the key q, or its window is closed) the scene is released: no force
- * stays on a device whose window is gone. GUI thread.
+ * When the interactor exits (the keys q and e, or its window is closed) the scene is released, so
+ * that no force stays on a device whose window is gone, and the event loop ends: Start() returns.
+ * Observers of ExitEvent with a higher priority than the style's come before that, while the window
+ * is still there. SIGINT (Ctrl-C in the terminal) does the same while the event loop runs, and
+ * GetInterrupted() returns true; a C++ program ends with
+ * `return style->GetInterrupted() ? 130 : 0;`.
+ *
+ * Smoothness: the style draws what it or the camera has changed at the next tick of its timer, so
+ * that no event waits for more than one picture, and rests between pictures where they take long.
+ * GUI thread.
  *
  * @sa vtkHapticScene
  */
@@ -37,6 +50,8 @@
 #include "vtkNew.h"
 #include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
+
+#include <cstdint>
 
 class vtkCallbackCommand;
 class vtkHapticScene;
@@ -72,6 +87,8 @@ public:
 
   /** The id of the repeating timer of the interactor; 0 while there is none. */
   vtkGetMacro(TimerId, int);
+  /** Whether SIGINT (Ctrl-C) has ended the event loop. */
+  vtkGetMacro(Interrupted, bool);
   /** Renders that UpdateScene() has asked for. */
   vtkGetMacro(NumberOfRenders, vtkIdType);
 
@@ -79,6 +96,15 @@ public:
   /** The protocol of vtkInteractorStyle. */
   void SetInteractor(vtkRenderWindowInteractor* interactor) override;
   void OnChar() override;
+  void OnMouseMove() override;
+  void OnLeftButtonDown() override;
+  void OnLeftButtonUp() override;
+  void OnMiddleButtonDown() override;
+  void OnMiddleButtonUp() override;
+  void OnRightButtonDown() override;
+  void OnRightButtonUp() override;
+  void OnMouseWheelForward() override;
+  void OnMouseWheelBackward() override;
   ///@}
 
 protected:
@@ -94,8 +120,16 @@ private:
   static void OnClippingRangeReset(
     vtkObject* caller, unsigned long event, void* clientData, void* callData);
   void ConnectMouse();
+  void Exit();
+  void RenderSoon();
+  void Engage();
+  void ToggleGrip();
   void ToggleHelp();
   void ToggleLook(char key);
+  void ToggleTrail();
+  void Render(vtkRenderer* renderer);
+  template <typename Function>
+  void DrawLater(Function handle);
   void StartTimer();
   void StopTimer();
   vtkRenderer* FindRenderer();
@@ -107,7 +141,12 @@ private:
   vtkWeakPointer<vtkRenderer> WatchedRenderer;
   double MaximumFrameRate = 60.0;
   int TimerId = 0;
+  int SleepingTimerId = 0; ///< after the event loop has ended
   bool StartingTimer = false;
+  bool MustRender = false;
+  bool Interrupted = false;
+  std::uint32_t InterruptsBefore = 0;
+  double RestsUntil = 0.0; ///< no picture before [s], vtkTimerLog's universal time
   vtkIdType NumberOfRenders = 0;
 };
 

@@ -25,6 +25,7 @@ namespace
 {
 constexpr double Arrived = 1e-7;      // [m]: less than a hand can tell; then it is there
 constexpr double HoverHeight = 0.004; // [m] above the surface when the hand lifts off
+constexpr int RepeatDelay = 40;       // [ms] in which a held key's next press follows its release
 constexpr double FreeSteps = 5.0;     // a notch in free space goes this many times as far
 }
 
@@ -138,16 +139,19 @@ void vtkMouseHapticDevice::SetInteractor(vtkRenderWindowInteractor* interactor)
   }
   if (this->Interactor)
   {
+    this->ForgetRelease();
     this->Interactor->RemoveObserver(this->Callback);
   }
+  this->ReleaseTimer = 0;
   this->Interactor = interactor;
   this->Pressed = false;
   if (interactor)
   {
     const float beforeStyles = 2.0f;
-    for (const unsigned long event : { vtkCommand::MouseMoveEvent,
-           vtkCommand::MouseWheelForwardEvent, vtkCommand::MouseWheelBackwardEvent,
-           vtkCommand::KeyPressEvent, vtkCommand::KeyReleaseEvent, vtkCommand::LeaveEvent })
+    for (const unsigned long event :
+      { vtkCommand::MouseMoveEvent, vtkCommand::MouseWheelForwardEvent,
+        vtkCommand::MouseWheelBackwardEvent, vtkCommand::KeyPressEvent, vtkCommand::KeyReleaseEvent,
+        vtkCommand::LeaveEvent, vtkCommand::TimerEvent })
     {
       interactor->AddObserver(event, this->Callback, beforeStyles);
     }
@@ -174,10 +178,11 @@ vtkHapticScene* vtkMouseHapticDevice::GetScene()
   return this->Scene;
 }
 
-void vtkMouseHapticDevice::OnEvent(vtkObject*, unsigned long event, void* clientData, void*)
+void vtkMouseHapticDevice::OnEvent(
+  vtkObject*, unsigned long event, void* clientData, void* callData)
 {
   auto* self = static_cast<vtkMouseHapticDevice*>(clientData);
-  self->Callback->SetAbortFlag(self->Handle(event) ? 1 : 0);
+  self->Callback->SetAbortFlag(self->Handle(event, callData) ? 1 : 0);
 }
 
 /// Whether a scene asks where the hand is. Before and after, the mouse is the camera's alone.
@@ -188,8 +193,19 @@ bool vtkMouseHapticDevice::IsInUse()
 }
 
 /// True where nobody else is to see the event.
-bool vtkMouseHapticDevice::Handle(unsigned long event)
+bool vtkMouseHapticDevice::Handle(unsigned long event, void* callData)
 {
+  if (event == vtkCommand::TimerEvent)
+  {
+    const bool isMine =
+      this->ReleaseTimer && callData && *static_cast<int*>(callData) == this->ReleaseTimer;
+    if (isMine)
+    {
+      this->ReleaseTimer = 0; // VTK takes it away; not to be destroyed while it fires
+      this->SetPressed(false);
+    }
+    return isMine; // the trackball takes any timer for its own
+  }
   const int* position = this->Interactor->GetEventPosition();
   const char* key = this->Interactor->GetKeySym();
   const bool space = key && std::strcmp(key, "space") == 0;
@@ -197,6 +213,7 @@ bool vtkMouseHapticDevice::Handle(unsigned long event)
   const bool draggingTheCamera = style && style->GetState() != VTKIS_NONE;
   if (!this->IsInUse())
   {
+    this->ForgetRelease();
     this->Pressed = false; // a key that is let go of now is not heard
     return false;
   }
@@ -222,12 +239,36 @@ bool vtkMouseHapticDevice::Handle(unsigned long event)
     case vtkCommand::KeyReleaseEvent:
       if (space)
       {
-        this->SetPressed(event == vtkCommand::KeyPressEvent);
+        this->HandleSpace(event == vtkCommand::KeyPressEvent);
       }
       return space;
     default: // the mouse has left the window: keys held there go unheard
+      this->ForgetRelease();
       this->SetPressed(false);
       return false;
+  }
+}
+
+void vtkMouseHapticDevice::HandleSpace(bool down)
+{
+  this->ForgetRelease();
+  if (!down)
+  {
+    this->ReleaseTimer =
+      std::max(0, this->Interactor->CreateOneShotTimer(static_cast<unsigned long>(RepeatDelay)));
+  }
+  if (down || this->ReleaseTimer == 0)
+  {
+    this->SetPressed(down);
+  }
+}
+
+void vtkMouseHapticDevice::ForgetRelease()
+{
+  if (this->ReleaseTimer)
+  {
+    this->Interactor->DestroyTimer(this->ReleaseTimer);
+    this->ReleaseTimer = 0;
   }
 }
 

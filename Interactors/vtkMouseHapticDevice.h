@@ -12,6 +12,9 @@
  * While the hand carries something (vtkHapticScene::Grip()) it is drawn to no surface, and goes as
  * deep as the wheel says.
  *
+ * A space bar that is held repeats itself: a release that a press follows at once is none. The
+ * mouse asks its interactor for a timer for that.
+ *
  * While a mouse button is held the mouse belongs to the camera, and the hand stays.
  *
  * What it is not: a mouse cannot push back. The force that a haptic device would give is computed
@@ -116,7 +119,9 @@ private:
 
   static void OnEvent(vtkObject* caller, unsigned long event, void* clientData, void* callData);
   bool IsInUse();
-  bool Handle(unsigned long event);
+  bool Handle(unsigned long event, void* callData);
+  void HandleSpace(bool down);
+  void ForgetRelease();
   bool Look(View& view);
   void MoveWithin(const View& view, double depth);
   double Scale();
@@ -130,6 +135,7 @@ private:
   std::array<double, 3> Target{ { 0.0, 0.0, 0.05 } };
   int Cursor[2] = { 0, 0 };
   bool Pressed = false;
+  int ReleaseTimer = 0; ///< runs out where the space bar was really let go
   double WheelStep = 0.001;
   double PressDepth = 0.003;
   double Smoothing = 0.012;

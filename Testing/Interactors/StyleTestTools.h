@@ -11,6 +11,9 @@
 #include "vtkRenderWindowInteractor.h"
 #include "vtkRenderer.h"
 
+#include <chrono>
+#include <thread>
+
 /// A window of 100 by 100 pixels over a table, whose events the test sends itself, one by one.
 struct Window
 {
@@ -42,6 +45,8 @@ struct Window
   }
   void Timer()
   {
+    // The style rests between two pictures.
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
     int id = this->Style->GetTimerId();
     this->Interactor->InvokeEvent(vtkCommand::TimerEvent, &id);
   }

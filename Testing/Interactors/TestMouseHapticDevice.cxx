@@ -29,6 +29,14 @@ struct MouseWindow : Window
     this->Tick();
   }
   void Tick() { this->Hand.Scene->Step(1); }
+  /// All timers of the interactor run out.
+  void RunTimersOut()
+  {
+    for (int id = 1; id < 50; ++id)
+    {
+      this->Interactor->InvokeEvent(vtkCommand::TimerEvent, &id);
+    }
+  }
   double Height() { return this->Hand.Scene->GetHapticInterfacePoint()[2]; }
   /// Where a point of the world is in the window [pixel].
   void Project(const double world[3], double display[2])
@@ -126,6 +134,28 @@ TEST(MouseHapticDevice, TheSpaceBarPressesFollowsTheSurfaceAndLiftsOff)
     EXPECT_NEAR(window.Hand.Scene->GetPenetration(), 0.003 * std::cos(0.35), 0.0005);
   }
   window.Send(vtkCommand::KeyReleaseEvent, 50, 30, "space");
+  window.RunTimersOut();
+  window.Tick();
+  EXPECT_FALSE(window.Hand.Scene->GetTouching());
+}
+
+TEST(MouseHapticDevice, ASpaceBarThatRepeatsItselfIsNotLetGo)
+{
+  MouseWindow window;
+  window.Send(vtkCommand::MouseMoveEvent, 50, 50);
+  window.Send(vtkCommand::KeyPressEvent, 50, 50, "space");
+  for (int i = 0; i < 5; ++i)
+  {
+    window.Send(vtkCommand::KeyReleaseEvent, 50, 50, "space");
+    window.Tick();
+    EXPECT_TRUE(window.Hand.Scene->GetTouching());
+    window.Send(vtkCommand::KeyPressEvent, 50, 50, "space");
+    window.RunTimersOut();
+    window.Tick();
+    EXPECT_TRUE(window.Hand.Scene->GetTouching());
+  }
+  window.Send(vtkCommand::KeyReleaseEvent, 50, 50, "space");
+  window.RunTimersOut();
   window.Tick();
   EXPECT_FALSE(window.Hand.Scene->GetTouching());
 }

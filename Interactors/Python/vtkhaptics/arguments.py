@@ -28,7 +28,7 @@ files name no length unit: sizes are shown in the file's own, and the hand's spa
 
 exit status:
   0 done; 1 the device or the servo failed, or a file could not be written; 2 wrong arguments or a
-  surface that cannot be read; 3 no display to draw with
+  surface that cannot be read; 3 no display to draw with; 130 ended by Ctrl-C, results written
 """
 
 

@@ -17,6 +17,7 @@ from vtkmodules.vtkRenderingCore import vtkRenderWindowInteractor
 from . import vtkHapticScene, vtkInteractorStyleHaptic, vtkSimulatedHapticDevice
 from .display import DisplayError, ensure_display
 from .errors import HapticsError
+from .interrupt import EXIT_INTERRUPTED, Interrupts
 from .picture import OutputError, Picture, add_hand, stroke_lines, write_atomically
 from .stroke import StrokeError, in_device_frame, plan_stroke
 from .surfaces import READERS, SurfaceError, read_surface
@@ -37,7 +38,8 @@ what it leaves in the output folder:
 
 exit status:
   0 done; 1 the device or servo failed, less than half of the ticks touched, or a file could not
-  be written; 2 wrong arguments or a surface that cannot be read; 3 no display to draw with
+  be written; 2 wrong arguments or a surface that cannot be read; 3 no display to draw with;
+  130 ended by Ctrl-C, results written
 """
 
 
@@ -125,8 +127,12 @@ def rehearse(surface, picture, plan):
     return best
 
 
-def touch(scene, picture, seconds, window, stay):
-    """Engages the scene for some seconds; with a window, shows it live meanwhile."""
+def touch(scene, picture, options, window, interrupts, write):
+    """Engages the scene for some seconds; with a window, shows it live meanwhile.
+
+    `write` is called when they are over, or the window is closed before; a window that is to stay
+    does so after that. Raises what `write` does, and KeyboardInterrupt."""
+    seconds = options.seconds
     scene.StartRecording()
     if window:
         picture.renderer.AddViewProp(scene.GetGodObjectActor())
@@ -141,23 +147,38 @@ def touch(scene, picture, seconds, window, stay):
     if not scene.Engage():
         raise DemoError(scene.GetErrorMessage())
     print(f"touching for {seconds:g} s ...", flush=True)
+    outcome = []
+
+    def conclude(over):
+        if not outcome:
+            finish(scene)
+            try:
+                outcome.append(None)
+                outcome[0] = write(over)
+            except Exception as error:  # raised after the event loop: VTK would only print it here
+                outcome[0] = error
+
     if window:
-        end = interactor.CreateOneShotTimer(int(1000 * seconds))
+        interactor.CreateOneShotTimer(int(1000 * seconds))
 
         def on_timer(_caller, _event):
-            finish(scene)
-            if not stay:
-                interactor.TerminateApp()
+            conclude(over=True)
+            if not options.stay or outcome[0]:
+                interactor.ExitCallback()
 
         interactor.AddObserver("TimerEvent", on_timer)
-        interactor.Start()
-        interactor.DestroyTimer(end)
-    else:
-        end = time.monotonic() + seconds
-        while time.monotonic() < end and scene.IsEngaged():
-            scene.Update()
-            time.sleep(1.0 / 60.0)
-    finish(scene)
+    try:
+        if window:
+            interrupts.run(interactor)
+        else:
+            end = time.monotonic() + seconds
+            while time.monotonic() < end and scene.IsEngaged():
+                scene.Update()
+                time.sleep(1.0 / 60.0)
+    finally:
+        conclude(over=not window)
+    if outcome[0]:
+        raise outcome[0]
 
 
 def finish(scene):
@@ -165,7 +186,7 @@ def finish(scene):
     if scene.IsEngaged():
         scene.Release()
         scene.Update()
-        scene.StopRecording()
+    scene.StopRecording()
 
 
 def table(scene, trace):
@@ -190,7 +211,7 @@ def table(scene, trace):
     return rows, contact, force.max()
 
 
-def run(options):
+def run(options, interrupts):
     """Touches a surface as the options say."""
     surface = read_surface(options.surface)
     try:
@@ -206,8 +227,22 @@ def run(options):
     window = not options.offscreen and bool(os.environ.get("DISPLAY"))
     picture = Picture(surface, plan.view, name, offscreen=not window)
     scene = rehearse(surface, picture, plan)
-    touch(scene, picture, options.seconds, window, options.stay)
 
+    def write(over):
+        # Not into the window, which may be closed by now.
+        drawn = Picture(surface, plan.view, name, offscreen=True) if window else picture
+        contact = report(options, scene, drawn)
+        if over and contact <= 0.5:
+            raise DemoError(
+                f"only {100.0 * contact:.0f} % of the ticks touched the surface; "
+                "it may be too rugged for the planned stroke."
+            )
+
+    touch(scene, picture, options, window, interrupts, write)
+
+
+def report(options, scene, picture):
+    """Prints the table and writes trace and picture; the share of ticks in contact."""
     trace = scene.GetTrace()
     if trace.GetNumberOfPoints() == 0:
         raise DemoError("the servo did not tick: " + (scene.GetErrorMessage() or "no cause given"))
@@ -227,12 +262,8 @@ def run(options):
     picture.add_stroke(stroke_lines(trace), picture.world_size(0.0035), strongest)
     add_hand(picture, scene.GetGodObjectActor(), trace)
     picture.save(picture_file)
-    print(f"picture: {picture_file}\ntrace:   {trace_file}")
-    if contact <= 0.5:
-        raise DemoError(
-            f"only {100.0 * contact:.0f} % of the ticks touched the surface; "
-            "it may be too rugged for the planned stroke."
-        )
+    print(f"picture: {picture_file}\ntrace:   {trace_file}", flush=True)
+    return contact
 
 
 def main(arguments=None):
@@ -244,13 +275,16 @@ def main(arguments=None):
         print(f"demo: {error}", file=sys.stderr)
         return EXIT_DISPLAY
     try:
-        run(options)
+        with Interrupts() as interrupts:
+            run(options, interrupts)
     except SurfaceError as error:
         print(f"demo: {error}", file=sys.stderr)
         return EXIT_INPUT
     except (DemoError, HapticsError, OutputError, StrokeError) as error:
         print(f"demo: {error}", file=sys.stderr)
         return EXIT_FAILED
+    except KeyboardInterrupt:
+        return EXIT_INTERRUPTED
     return EXIT_DONE
 
 

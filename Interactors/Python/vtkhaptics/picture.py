@@ -73,6 +73,13 @@ def add_lights(renderer):
         renderer.AddLight(light)
 
 
+def smooth_edges(renderer, window):
+    """Smooths edges in a pass over the finished picture. Several samples a pixel, which VTK takes
+    by default, make a picture drawn without a graphics card five to eight times as slow."""
+    window.SetMultiSamples(0)
+    renderer.UseFXAAOn()
+
+
 def save_window(window, path, scale=2):
     """Writes a PNG of a window, drawn at a multiple of its size and averaged down for clean edges.
 
@@ -131,7 +138,7 @@ class Picture:
         self.window = vtkRenderWindow()
         self.window.SetOffScreenRendering(offscreen)
         self.window.SetSize(*SIZE)
-        self.window.SetMultiSamples(8)
+        smooth_edges(self.renderer, self.window)
         self.window.SetWindowName("VTK Haptics: " + title)
         self.window.AddRenderer(self.renderer)
 

@@ -2,6 +2,7 @@
 
 from . import vtkHapticScene, vtkInteractorStyleHaptic, vtkMouseHapticDevice
 from .errors import HapticsError
+from .interrupt import EXIT_INTERRUPTED, Interrupts, is_interactive
 
 
 class Touch:
@@ -15,10 +16,31 @@ class Touch:
         self._plotter = plotter
         interactor, self._renderer = _view_of(plotter)
         self._style_before = interactor.GetInteractorStyle()
+        self._interrupts = Interrupts()
+        self._take_interrupts(interactor)
 
     def add(self, prop):
         """Makes an actor or an assembly touchable too; the id of the surface."""
         return _add(self.scene, prop)
+
+    def _take_interrupts(self, interactor):
+        """Lets Ctrl-C end the event loop, whoever starts it, and after that the program."""
+        self._interrupts.__enter__()
+        start = interactor.Start
+
+        def run():
+            try:
+                self._interrupts.run(interactor, start)
+            except KeyboardInterrupt:
+                if is_interactive():
+                    raise
+                raise SystemExit(EXIT_INTERRUPTED) from None
+
+        interactor.Start = run
+
+    def _leave_interrupts(self, interactor):
+        interactor.__dict__.pop("Start", None)
+        self._interrupts.__exit__()
 
     def disable(self):
         """Lets go: no force, the plot as it was before, and nothing is updated any more."""
@@ -29,6 +51,7 @@ class Touch:
         if isinstance(self.device, vtkMouseHapticDevice):
             self.device.SetInteractor(None)
         interactor, _ = _view_of(self._plotter)
+        self._leave_interrupts(interactor)
         if interactor.GetInteractorStyle() is self.style:
             _set_style(self._plotter, self._style_before)
 

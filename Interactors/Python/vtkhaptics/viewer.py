@@ -33,7 +33,17 @@ from .arguments import parse
 from .coloring import TEXT, color_by, other_arrays, scalar_bar
 from .display import DisplayError, ensure_display
 from .errors import HapticsError
-from .picture import BACKGROUND, OutputError, add_lights, fill_view, save_window, surface_actor, write_atomically
+from .interrupt import EXIT_INTERRUPTED, Interrupts
+from .picture import (
+    BACKGROUND,
+    OutputError,
+    add_lights,
+    fill_view,
+    save_window,
+    smooth_edges,
+    surface_actor,
+    write_atomically,
+)
 from .progress import PATIENCE, ProgressBar
 from .recording import RecordingError, read_recording
 from .stroke import StrokeError, in_device_frame, plan_stroke
@@ -52,8 +62,9 @@ class ViewerError(Exception):
 class Viewer:
     """A window over a haptic scene with the surfaces of some files."""
 
-    def __init__(self, options):
+    def __init__(self, options, interrupts=None):
         self.options = options
+        self.interrupts = interrupts or Interrupts()
         self.renderer = vtkRenderer()
         self.renderer.SetBackground(*BACKGROUND[0])
         self.renderer.SetBackground2(*BACKGROUND[1])
@@ -116,7 +127,7 @@ class Viewer:
         self.window = vtkRenderWindow()
         self.window.SetOffScreenRendering(self.options.offscreen)
         self.window.SetSize(*self.options.size)
-        self.window.SetMultiSamples(8)
+        smooth_edges(self.renderer, self.window)
         names = ", ".join(os.path.basename(path) for path in self.options.surfaces)
         self.window.SetWindowName(f"{names} - VTK Haptics - ? lists the keys")
         self.window.AddRenderer(self.renderer)
@@ -242,14 +253,20 @@ class Viewer:
             return
         if not self.scene.Engage():
             raise ViewerError(self.scene.GetErrorMessage())
-        self.error = None
-        self.interactor.AddObserver("ExitEvent", self._on_exit, 10.0)  # before the style lets go
-        self.interactor.Start()
-        self.scene.Release()  # where a script has ended the loop, nobody has asked for it
+        self.error, self.finished = None, False
+        # Before the style ends the event loop, and with it the window that is to be drawn.
+        self.interactor.AddObserver("ExitEvent", self._on_exit, 10.0)
+        try:
+            self.interrupts.run(self.interactor)
+        finally:
+            self.scene.Release()  # where a script has ended the loop, nobody has asked for it
         if self.error:
             raise self.error
 
     def _on_exit(self, _caller, _event):
+        if self.finished:
+            return
+        self.finished = True
         try:
             self._finish()
         except OutputError as error:  # raised after the event loop: VTK would only print it here
@@ -288,9 +305,9 @@ class Viewer:
             print(f"trace:   {self.options.trace}")
 
 
-def run(options):
+def run(options, interrupts):
     """Shows and touches the surfaces as the options say."""
-    viewer = Viewer(options)
+    viewer = Viewer(options, interrupts)
     viewer.add_surfaces()
     viewer.open()
     if viewer.build():
@@ -316,7 +333,8 @@ def main(arguments=None):
         return EXIT_DISPLAY
     try:
         ensure_display("vtkhaptics", arguments)
-        run(options)
+        with Interrupts() as interrupts:
+            run(options, interrupts)
     except DisplayError as error:
         print(f"vtkhaptics: {error}", file=sys.stderr)
         return EXIT_DISPLAY
@@ -326,4 +344,6 @@ def main(arguments=None):
     except (HapticsError, OutputError, RecordingError, StrokeError, ViewerError) as error:
         print(f"vtkhaptics: {error}", file=sys.stderr)
         return EXIT_FAILED
+    except KeyboardInterrupt:
+        return EXIT_INTERRUPTED
     return EXIT_DONE

@@ -1,0 +1,128 @@
+"""A window ends by q, e, its close button and Ctrl-C: in two seconds, with its results written.
+
+Real keys, a real window manager, real processes. usage: TestWindowEnds.py [C++ PROGRAM]
+"""
+
+import os
+import sys
+import tempfile
+import time
+
+import vtkmodules.vtkCommonCore  # noqa: F401  (before PyVista, so that it takes the same VTK)
+from vtkmodules.vtkFiltersSources import vtkSphereSource
+from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+
+from real_window import Desktop, skip_where_it_cannot_run
+
+PLOT = """
+import sys
+import vtkmodules.vtkInteractionStyle
+import vtkhaptics
+from vtkmodules.vtkFiltersSources import vtkSphereSource
+from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow, vtkRenderWindowInteractor
+from vtkhaptics.picture import surface_actor
+
+ball = vtkSphereSource()
+ball.Update()
+renderer, window = vtkRenderer(), vtkRenderWindow()
+renderer.AddActor(surface_actor(ball.GetOutput()))
+window.SetSize(300, 200)
+window.SetWindowName("VTK Haptics")
+window.AddRenderer(renderer)
+interactor = vtkRenderWindowInteractor()
+interactor.SetRenderWindow(window)
+interactor.Initialize()
+touch = vtkhaptics.enable(interactor)
+if "--observed" in sys.argv:  # Python's own code runs in the event loop, and so signal handlers
+    interactor.AddObserver("TimerEvent", lambda *_: None, 5.0)
+print("ready", flush=True)
+interactor.Start()
+print("ended", flush=True)
+touch.disable()
+print("left", touch.scene.IsEngaged(), flush=True)
+"""
+
+
+def ball(folder):
+    source = vtkSphereSource()
+    source.SetThetaResolution(40)
+    source.SetPhiResolution(40)
+    writer = vtkXMLPolyDataWriter()
+    writer.SetInputConnection(source.GetOutputPort())
+    writer.SetDataModeToBinary()
+    writer.SetFileName(os.path.join(folder, "ball.vtp"))
+    assert writer.Write() == 1
+    return writer.GetFileName()
+
+
+# What a person does, and the exit status that is right then.
+WAYS = {
+    "q": (lambda program: program.key("q"), 0),
+    "e": (lambda program: program.key("e"), 0),
+    "close button": (lambda program: program.close_button(), 0),
+    "Ctrl-C": (lambda program: program.interrupt(), 130),
+}
+
+
+def end(program, way, name):
+    act, status = WAYS[way]
+    program.focus()
+    began = time.monotonic()
+    act(program)
+    found = program.ended(20.0)  # a busy machine takes its time; what it was is printed
+    took = time.monotonic() - began
+    assert found == status, (program.command, way, found, program.output())
+    assert "Traceback" not in program.output(), program.output()
+    print(f"{name}: {way}: {found} after {took:.2f} s", flush=True)
+
+
+def test_viewer(desktop, folder):
+    for number, way in enumerate(WAYS):
+        results = [os.path.join(folder, f"{number}.{kind}") for kind in ("vtp", "png")]
+        program = desktop.start(
+            [sys.executable, "-m", "vtkhaptics", ball(folder), "--size", "400", "300",
+             "--trace", results[0], "--screenshot", results[1]])
+        time.sleep(1.0)  # something to record
+        end(program, way, "viewer")
+        for result in results:
+            assert os.path.getsize(result) > 1000, (way, result, program.output())
+
+
+def test_demo(desktop, folder):
+    for number, way in enumerate(WAYS):
+        output = os.path.join(folder, f"demo{number}")
+        program = desktop.start(
+            [sys.executable, "-m", "vtkhaptics.demo", "--surface", ball(folder), "--output", output,
+             "--seconds", "2", "--stay"])
+        program.says("touching for" if way == "e" else "trace: ")  # in the middle, and after it
+        end(program, way, "demo --stay")
+        for result in ("trace.vtp", "touched.png"):
+            assert os.path.getsize(os.path.join(output, result)) > 1000, (way, program.output())
+
+
+def test_style(desktop, folder):
+    script = os.path.join(folder, "plot.py")
+    with open(script, "w", encoding="utf-8") as file:
+        file.write(PLOT)
+    for way in WAYS:
+        for more in ((), ("--observed",)):
+            program = desktop.start([sys.executable, script, *more])
+            program.says("ready")
+            end(program, way, f"enable() {' '.join(more)}")
+            assert ("left False" in program.output()) == (way != "Ctrl-C"), program.output()
+
+
+def test_cxx(desktop, _folder):
+    for way in WAYS:
+        program = desktop.start([sys.argv[1]])
+        end(program, way, "C++")
+        assert "the event loop has ended" in program.output(), program.output()
+
+
+skip_where_it_cannot_run()
+with Desktop() as screen, tempfile.TemporaryDirectory() as scratch:
+    test_style(screen, scratch)
+    test_viewer(screen, scratch)
+    test_demo(screen, scratch)
+    if len(sys.argv) > 1:
+        test_cxx(screen, scratch)

@@ -1,0 +1,123 @@
+"""Keys do what people type, on keyboards of many countries, and a held space bar is one contact."""
+
+import os
+import sys
+import tempfile
+import time
+
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkFiltersSources import vtkSphereSource
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
+
+from real_window import Desktop, skip_where_it_cannot_run, wait_for
+
+# Prints, whenever they change, whether the help is shown and how far the hand goes.
+PLOT = """
+import vtkmodules.vtkInteractionStyle
+import vtkhaptics
+from vtkmodules.vtkFiltersSources import vtkSphereSource
+from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow, vtkRenderWindowInteractor
+from vtkhaptics.picture import surface_actor
+
+ball = vtkSphereSource()
+ball.Update()
+renderer, window = vtkRenderer(), vtkRenderWindow()
+renderer.AddActor(surface_actor(ball.GetOutput()))
+window.SetSize(300, 200)
+window.SetWindowName("VTK Haptics")
+window.AddRenderer(renderer)
+interactor = vtkRenderWindowInteractor()
+interactor.SetRenderWindow(window)
+interactor.Initialize()
+touch = vtkhaptics.enable(interactor)
+home = touch.scene.GetWorkspaceTransform().Determinant()
+said = None
+
+def say(*_):
+    global said
+    scale = touch.scene.GetWorkspaceTransform().Determinant() / home
+    now = touch.scene.GetOverlay().GetShowHelp(), round(scale ** (1.0 / 3.0), 3)
+    if now != said:
+        said = now
+        print(*now, flush=True)
+
+interactor.AddObserver("TimerEvent", say, 5.0)
+interactor.Start()
+"""
+
+
+def lines(program):
+    return [line for line in program.output().splitlines() if line.startswith(("True", "False"))]
+
+
+def test_shifted_keys_and_keypads(desktop, folder):
+    script = os.path.join(folder, "plot.py")
+    with open(script, "w", encoding="utf-8") as file:
+        file.write(PLOT)
+    program = desktop.start([sys.executable, script])
+    program.focus()
+    program.says("False 1.0")
+    count = len(lines(program))
+    for layout in ("us", "gb", "de", "fr", "be", "it", "es", "dk", "se"):
+        desktop.layout(layout)
+        for key, right in (
+            ("question", "True 1.0"), ("question", "False 1.0"),
+            ("plus", "False 1.25"), ("minus", "False 1.0"),
+            ("KP_Add", "False 1.25"), ("plus", "False 1.562"), ("0", "False 1.0"),
+            ("KP_Subtract", "False 0.8"), ("KP_Add", "False 1.0"),
+        ):
+            program.key(key)
+            count += 1
+            wait_for(
+                lambda: len(lines(program)) >= count, 20.0, f"{key} on a keyboard of '{layout}'")
+            assert lines(program)[count - 1] == right, (layout, key, lines(program))
+    desktop.layout("us")
+    program.key("F1")
+    program.says("True 1.0")
+    program.key("ctrl+q")  # no command
+    program.key("q")
+    assert program.ended(20.0) == 0
+
+
+def test_a_held_space_bar_is_one_contact(desktop, folder):
+    source = vtkSphereSource()
+    source.SetThetaResolution(200)  # takes a while to draw: events must not queue up behind it
+    source.SetPhiResolution(200)
+    writer = vtkXMLPolyDataWriter()
+    writer.SetInputConnection(source.GetOutputPort())
+    writer.SetDataModeToBinary()
+    writer.SetFileName(os.path.join(folder, "ball.vtp"))
+    assert writer.Write() == 1
+    for size in ((1200, 800), (200, 150)):
+        trace = os.path.join(folder, "held.vtp")
+        program = desktop.start(
+            [sys.executable, "-m", "vtkhaptics", writer.GetFileName(), "--trace", trace,
+             "--size", *map(str, size)])
+        time.sleep(2.0)
+        program.focus()
+        desktop.xdo("keydown", "space")
+        began = time.monotonic()
+        time.sleep(3.0)
+        desktop.xdo("keyup", "space")
+        took = time.monotonic() - began
+        time.sleep(1.0)
+        program.key("q")
+        assert program.ended(20.0) == 0, program.output()
+        reader = vtkXMLPolyDataReader()
+        reader.SetFileName(trace)
+        reader.Update()
+        data = reader.GetOutput().GetPointData()
+        touching = vtk_to_numpy(data.GetArray("ActiveConstraints")) > 0
+        ticks = vtk_to_numpy(data.GetArray("Time"))
+        begins = int((touching[1:] & ~touching[:-1]).sum())
+        held = ticks[touching]
+        print(f"{size}: {begins} contact, {held[-1] - held[0]:.2f} s of {took:.2f} s", flush=True)
+        assert begins == 1, begins
+        # It ends with the key, not when a queue of old events is empty.
+        assert took - 1.0 < held[-1] - held[0] < took + 1.5, (took, held[-1] - held[0])
+
+
+skip_where_it_cannot_run()
+with Desktop() as screen, tempfile.TemporaryDirectory() as scratch:
+    test_shifted_keys_and_keypads(screen, scratch)
+    test_a_held_space_bar_is_one_contact(screen, scratch)
