@@ -268,7 +268,11 @@ bool vtkHapticServo::NoticeState(int state)
   }
   this->State = state;
   const std::string explanation = Explain(state);
-  if (!explanation.empty())
+  if (state == Interrupted) // somebody wanted it: no error
+  {
+    this->ErrorMessage = explanation;
+  }
+  else if (!explanation.empty())
   {
     this->Fail(explanation);
   }

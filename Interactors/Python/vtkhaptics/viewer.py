@@ -168,7 +168,7 @@ class Viewer:
             (self.scene, self.scene.AddObserver("ErrorEvent", lambda *_: None)),
         ]
         self.scene.BackgroundBuildingOn()
-        self.scene.Update()
+        self._update()
         with ProgressBar("building") as bar, self._build_label() as label:
             while self.scene.IsBuilding() and not closed:
                 bar.show(self.scene.GetBuildProgress())
@@ -176,7 +176,7 @@ class Viewer:
                 if not self.options.offscreen:
                     self.interactor.ProcessEvents()
                 time.sleep(BUILD_FRAME)
-                self.scene.Update()
+                self._update()
         for caller, observer in observers:
             caller.RemoveObserver(observer)
         if closed:
@@ -191,6 +191,11 @@ class Viewer:
         self.style.SetScene(self.scene)
         self.interactor.SetInteractorStyle(self.style)
         return True
+
+    def _update(self):
+        """Updates the scene; SurfaceErrorEvent says what is wrong with a surface."""
+        with contextlib.suppress(HapticsError):
+            self.scene.Update()
 
     @contextlib.contextmanager
     def _build_label(self):
