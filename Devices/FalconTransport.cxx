@@ -83,6 +83,11 @@ FalconTransport::FalconTransport(const FalconSettings& settings)
 
 FalconTransport::~FalconTransport()
 {
+  if (!this->Owner.IsHere())
+  {
+    GiveUp(this->Thread);
+    return;
+  }
   this->RequestStop();
   this->Thread.join();
 }

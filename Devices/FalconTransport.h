@@ -2,6 +2,7 @@
 #define FalconTransport_h
 
 #include "FalconLink.h"
+#include "ProcessOwner.h"
 #include "vtkHapticsDevicesModule.h"
 
 #include <atomic>
@@ -60,7 +61,8 @@ class VTKHAPTICSDEVICES_EXPORT FalconTransport
 {
 public:
   explicit FalconTransport(const FalconSettings& settings);
-  /// Stops, and waits for it: some milliseconds, at most about 100.
+  /// Stops, and waits for it: some milliseconds, at most about 100. In a child of fork() it leaves
+  /// the device to its parent.
   ~FalconTransport();
   FalconTransport(const FalconTransport&) = delete;
   FalconTransport& operator=(const FalconTransport&) = delete;
@@ -84,6 +86,7 @@ private:
   std::atomic<bool> Stop{ false };
   mutable std::mutex StatusMutex;
   FalconStatus Status;
+  const ProcessOwner Owner;
   std::thread Thread; // last: everything is there when it begins
 };
 }

@@ -20,6 +20,12 @@ bool BackgroundTask::Report(double fraction)
 
 BackgroundWorker::~BackgroundWorker()
 {
+  if (!this->Owner.IsHere())
+  {
+    GiveUp(this->Thread);
+    this->Changed.release(); // its end would wait for the thread that waits for it
+    return;
+  }
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
     for (const std::shared_ptr<BackgroundTask>& task : this->Waiting)
@@ -28,7 +34,7 @@ BackgroundWorker::~BackgroundWorker()
     }
     this->Ending = true;
   }
-  this->Changed.notify_all();
+  this->Changed->notify_all();
   if (this->Thread.joinable())
   {
     this->Thread.join();
@@ -37,6 +43,12 @@ BackgroundWorker::~BackgroundWorker()
 
 void BackgroundWorker::Start(std::shared_ptr<BackgroundTask> task)
 {
+  if (!this->Owner.IsHere())
+  {
+    task->Run();
+    this->Finished.push_back(std::move(task));
+    return;
+  }
   if (!this->Thread.joinable())
   {
     try
@@ -55,18 +67,23 @@ void BackgroundWorker::Start(std::shared_ptr<BackgroundTask> task)
     const std::lock_guard<std::mutex> lock(this->Mutex);
     this->Waiting.push_back(std::move(task));
   }
-  this->Changed.notify_all();
+  this->Changed->notify_all();
 }
 
 void BackgroundWorker::Wait()
 {
+  if (!this->Owner.IsHere())
+  {
+    return;
+  }
   std::unique_lock<std::mutex> lock(this->Mutex);
-  this->Changed.wait(lock, [this] { return this->Waiting.empty(); });
+  this->Changed->wait(lock, [this] { return this->Waiting.empty(); });
 }
 
 void BackgroundWorker::Collect()
 {
   std::vector<std::shared_ptr<BackgroundTask>> finished;
+  if (this->Owner.IsHere())
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
     finished.swap(this->Finished);
@@ -78,7 +95,7 @@ void BackgroundWorker::Work()
   std::unique_lock<std::mutex> lock(this->Mutex);
   while (true)
   {
-    this->Changed.wait(lock, [this] { return this->Ending || !this->Waiting.empty(); });
+    this->Changed->wait(lock, [this] { return this->Ending || !this->Waiting.empty(); });
     if (this->Waiting.empty())
     {
       return;
@@ -89,7 +106,7 @@ void BackgroundWorker::Work()
     lock.lock();
     this->Finished.push_back(std::move(this->Waiting.front()));
     this->Waiting.pop_front();
-    this->Changed.notify_all();
+    this->Changed->notify_all();
   }
 }
 }

@@ -1,6 +1,8 @@
 #ifndef BackgroundWorker_h
 #define BackgroundWorker_h
 
+#include "ProcessOwner.h"
+
 #include <atomic>
 #include <condition_variable>
 #include <deque>
@@ -43,7 +45,8 @@ private:
 ///
 /// A task is never destroyed on the worker thread: it may hold the last reference to a vtkObject
 /// whose observers expect the GUI thread. The thread starts with the first task and sleeps between
-/// tasks.
+/// tasks. In a child of fork() it has none: what was in work stays undone, and what comes is done by
+/// Start().
 class BackgroundWorker
 {
 public:
@@ -65,10 +68,11 @@ private:
 
   std::thread Thread;
   std::mutex Mutex;
-  std::condition_variable Changed;
+  std::unique_ptr<std::condition_variable> Changed = std::make_unique<std::condition_variable>();
   std::deque<std::shared_ptr<BackgroundTask>> Waiting; // the first one is in work
   std::vector<std::shared_ptr<BackgroundTask>> Finished;
   bool Ending = false;
+  const ProcessOwner Owner;
 };
 }
 

@@ -7,11 +7,15 @@
 #include <atomic>
 #include <cstdlib>
 #include <exception>
+#include <memory>
+#include <mutex>
+#include <vector>
 
 #ifdef __unix__
 #include <cerrno>
 #include <csignal>
 #include <ctime>
+#include <pthread.h>
 #endif
 
 namespace haptics
@@ -27,7 +31,33 @@ static_assert(std::atomic<std::uint32_t>::is_always_lock_free, "used in signal h
 thread_local ServoCycle* OwnCycle = nullptr;
 
 #ifdef __unix__
-std::array<struct sigaction, EndingSignals.size()> Previous;
+// What handled each signal before, and what did when it was taken first: none is ever changed or
+// freed, so that a handler may read it at any time.
+using Action = struct sigaction;
+std::array<std::atomic<const Action*>, EndingSignals.size()> Previous{};
+std::array<const Action*, EndingSignals.size()> First{};
+std::mutex Taking;
+
+// How often this thread is in HandleSignal(): twice where a handler that came later calls the one
+// that it has replaced, which was ours.
+thread_local int Depth = 0;
+
+const Action* Keep(const Action& action)
+{
+  static std::vector<std::unique_ptr<const Action>> kept;
+  for (const auto& known : kept)
+  {
+    const bool isSame = (action.sa_flags & SA_SIGINFO) != 0
+      ? action.sa_sigaction == known->sa_sigaction
+      : action.sa_handler == known->sa_handler;
+    if (isSame && action.sa_flags == known->sa_flags)
+    {
+      return known.get();
+    }
+  }
+  kept.push_back(std::make_unique<const Action>(action));
+  return kept.back().get();
+}
 
 // SIGINT that came, that CountInterrupts() has returned, and until when somebody listens [ms].
 std::atomic<std::uint32_t> Interrupts{ 0 };
@@ -82,14 +112,16 @@ void HandleSignal(int signal, siginfo_t* information, void* context)
 {
   const int error = errno;
   StopAllServos();
-  const bool isHeard = signal == SIGINT && IsHeard();
+  thread_local bool isHeard = false;
+  isHeard = Depth == 0 ? signal == SIGINT && IsHeard() : isHeard;
   for (std::size_t i = 0; i < EndingSignals.size(); ++i)
   {
     if (EndingSignals[i] != signal)
     {
       continue;
     }
-    const struct sigaction& previous = Previous[i];
+    const Action& previous = *(Depth == 0 ? Previous[i].load() : First[i]);
+    ++Depth;
     if ((previous.sa_flags & SA_SIGINFO) != 0)
     {
       previous.sa_sigaction(signal, information, context);
@@ -103,12 +135,14 @@ void HandleSignal(int signal, siginfo_t* information, void* context)
       sigaction(signal, &previous, nullptr);
       raise(signal);
     }
+    --Depth;
   }
   errno = error;
 }
 
 void TakeSignals()
 {
+  const std::lock_guard<std::mutex> lock(Taking);
   for (std::size_t i = 0; i < EndingSignals.size(); ++i)
   {
     struct sigaction present
@@ -120,7 +154,8 @@ void TakeSignals()
     const bool isOurs = hasInformation && present.sa_sigaction == HandleSignal;
     if (!isIgnored && !isOurs)
     {
-      Previous[i] = present;
+      Previous[i] = Keep(present);
+      First[i] = First[i] ? First[i] : Previous[i].load();
       struct sigaction ours
       {
       };
@@ -149,6 +184,14 @@ void HandleExit()
 {
   StopAllServos();
 }
+
+#ifdef __unix__
+/// A child has none of its parent's servo threads to wait for.
+void ForgetServos()
+{
+  RunningServos.store(0, std::memory_order_release);
+}
+#endif
 }
 
 void EmergencyStop::Install()
@@ -162,6 +205,17 @@ void EmergencyStop::Install()
   }
   static const bool isRegistered = std::atexit(HandleExit) == 0;
   (void)isRegistered;
+#ifdef __unix__
+  static const bool isTold = pthread_atfork(nullptr, nullptr, ForgetServos) == 0;
+  (void)isTold;
+#endif
+}
+
+void EmergencyStop::KeepSignals()
+{
+#ifdef __unix__
+  TakeSignals();
+#endif
 }
 
 std::uint32_t EmergencyStop::CountInterrupts() noexcept

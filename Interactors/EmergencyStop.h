@@ -28,6 +28,10 @@ public:
   /// Takes the process's signals, exit and terminate. To be called at each start of a servo, since
   /// others may have put their handlers in place since. GUI thread.
   static void Install();
+  /// Takes the signals again where a handler has taken the place of this one, and calls that one
+  /// from then on: Jupyter sets its own before each cell. A running servo's watchdog calls it again
+  /// and again. Any thread but the servo's.
+  static void KeepSignals();
 
   /// How often SIGINT has come since the first Install(). Who sees it grow ends its event loop. GUI
   /// thread; it listens for a second after each call.

@@ -3,6 +3,7 @@
 
 #include "DeviceChannel.h"
 #include "DeviceRecording.h"
+#include "ProcessOwner.h"
 #include "RingBuffer.h"
 #include "vtkHapticsInteractorsModule.h"
 
@@ -38,6 +39,9 @@ public:
   /// where anything could not be written since Start(). The channel goes on without recording.
   bool Start(const std::string& fileName, const RecordingHeader& header, std::string& error);
   bool Finish(std::string& error);
+  /// False in a child of fork(), where it is not to be finished nor destroyed: the thread and the
+  /// file are its parent's.
+  bool IsHere() const { return this->Owner.IsHere(); }
   ///@}
   ///@{
   /// Ticks written to the file, and ticks that could not be kept. Any thread.
@@ -77,6 +81,7 @@ private:
   std::vector<RecordedTick> Ticks;
   std::string Error;
 
+  const ProcessOwner Owner;
   std::mutex Mutex;
   std::condition_variable Ending;
   bool End = false;

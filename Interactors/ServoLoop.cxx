@@ -30,6 +30,7 @@ bool ServoLoop::Start(const ServoTiming& timing, std::string& error)
 {
   this->StopRequested.store(false, std::memory_order_relaxed);
   EmergencyStop::Install();
+  this->Owner = std::make_unique<const ProcessOwner>();
   std::promise<int> promise;
   std::future<int> priority = promise.get_future();
   try
@@ -57,6 +58,13 @@ bool ServoLoop::Start(const ServoTiming& timing, std::string& error)
 
 void ServoLoop::Stop()
 {
+  if (this->IsParents())
+  {
+    GiveUp(this->Thread);
+    this->Guardian.release(); // it has a thread too
+    this->Cycle.End(ServoState::Stopped);
+    return;
+  }
   if (this->Thread.joinable())
   {
     this->StopRequested.store(true, std::memory_order_relaxed);

@@ -1,6 +1,7 @@
 #ifndef ServoLoop_h
 #define ServoLoop_h
 
+#include "ProcessOwner.h"
 #include "ServoCycle.h"
 #include "ServoStatistics.h"
 #include "vtkHapticsInteractorsModule.h"
@@ -59,8 +60,11 @@ public:
   /// system gives no thread. Stop() first.
   bool Start(const ServoTiming& timing, std::string& error);
   /// Asks for zero force, ends the thread and waits for that: about a period, and until the device
-  /// has got the zero, see ServoCycle::End(). Does nothing where there is no thread.
+  /// has got the zero, see ServoCycle::End(). Does nothing where there is no thread. In a child of
+  /// fork() the thread is the parent's, and goes on there.
   void Stop();
+  /// Whether a thread was started by a process of which this one is a child by fork().
+  bool IsParents() const { return this->Thread.joinable() && !this->Owner->IsHere(); }
   /// 0 where the thread of the last start got real-time priority, else the errno that tells why
   /// not; meaningful where it was asked for.
   int GetPriorityResult() const { return this->PriorityResult; }
@@ -78,6 +82,7 @@ private:
   ServoStatistics& Statistics;
   std::unique_ptr<Watchdog> Guardian;
   std::thread Thread;
+  std::unique_ptr<const ProcessOwner> Owner; ///< of Thread
   std::atomic<std::uint64_t> Halts{ 0 };
   std::atomic<bool> StopRequested{ false };
   int PriorityResult = 0;

@@ -1,9 +1,11 @@
 #include "Watchdog.h"
 
 #include "DeviceChannel.h"
+#include "EmergencyStop.h"
 #include "EndingSignals.h"
 #include "RealTimePriority.h"
 
+#include <algorithm>
 #include <chrono>
 
 namespace haptics
@@ -30,7 +32,8 @@ void Watchdog::Run()
   LeaveEndingSignalsToOtherThreads();
   RequestRealTimePriority(Urgency::AboveServo);
   // Four looks a limit: it bites after 1 to 1.25 limits.
-  const auto look = std::chrono::nanoseconds(this->Limit / 4 + 1);
+  const auto look = std::min<std::chrono::nanoseconds>(
+    std::chrono::nanoseconds(this->Limit / 4 + 1), std::chrono::milliseconds(50));
   const auto limit = std::chrono::nanoseconds(this->Limit);
   std::uint64_t seen = this->Fed.load(std::memory_order_acquire);
   auto since = std::chrono::steady_clock::now();
@@ -38,6 +41,7 @@ void Watchdog::Run()
   std::unique_lock<std::mutex> lock(this->Mutex);
   while (!this->Ending.wait_for(lock, look, [this] { return this->End; }))
   {
+    EmergencyStop::KeepSignals();
     const auto now = std::chrono::steady_clock::now();
     const std::uint64_t fed = this->Fed.load(std::memory_order_acquire);
     if (fed != seen)

@@ -18,7 +18,7 @@ class DeviceChannel;
 ///
 /// The servo thread shows with Feed() that it lives. Where it has not for the time limit, a thread
 /// of the watchdog's own halts the channel: no force is left in the hand although the servo cannot
-/// write. The servo finds out with TakeBite() once it goes on.
+/// write. It also keeps the process's signals, see EmergencyStop. The servo finds out with TakeBite() once it goes on.
 class VTKHAPTICSINTERACTORS_EXPORT Watchdog
 {
 public:

@@ -242,6 +242,10 @@ bool vtkHapticServo::IsRunning()
 bool vtkHapticServo::Update()
 {
   this->Internal->Cycle.GetExchange().Collect();
+  if (this->Internal->Loop.IsParents())
+  {
+    this->Internal->Loop.Stop(); // in a child of fork() it does not run
+  }
   if (this->Device)
   {
     this->Device->Update();

@@ -177,6 +177,11 @@ int vtkHapticServo::Step(int n)
 
 void vtkHapticServo::FinishRecording()
 {
+  if (this->Internal->Recorder && !this->Internal->Recorder->IsHere())
+  {
+    new std::shared_ptr<haptics::RecordingChannel>(this->Internal->Recorder); // its file is its parent's
+    this->Internal->Recorder.reset();
+  }
   if (this->Internal->Recorder)
   {
     std::string error;

@@ -167,6 +167,53 @@ TEST_F(EmergencyStop, AHandlerThatWasThereBeforeIsStillCalled)
   EXPECT_EQ(WEXITSTATUS(status), 7);
 }
 
+struct sigaction TakenOver;
+
+/// Puts a handler in the place of the servo's, as Jupyter does before each cell, and waits until the
+/// servo has taken the signal back.
+void SetHandlerWhilePressing(void (*handler)(int))
+{
+  struct sigaction mine
+  {
+  };
+  mine.sa_handler = handler;
+  sigaction(SIGINT, &mine, &TakenOver);
+  struct sigaction present = mine;
+  while ((present.sa_flags & SA_SIGINFO) == 0 && present.sa_handler == handler)
+  {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    sigaction(SIGINT, nullptr, &present);
+  }
+}
+
+TEST_F(EmergencyStop, AHandlerThatIsSetWhilePressingIsCalledWithTheForceGone)
+{
+  HandlersDevice = this->Device;
+  const int status = EndWhilePressing(*this->Device,
+    [](SharedDevice&)
+    {
+      SetHandlerWhilePressing(
+        [](int) { HandlersDevice->Survived = HandlersDevice->Force == 0.0; });
+      raise(SIGINT);
+      _exit(7);
+    });
+  EXPECT_TRUE(this->Device->Survived);
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 7);
+}
+
+TEST_F(EmergencyStop, AHandlerThatCallsTheOneItHasReplacedEnds)
+{
+  const int status = EndWhilePressing(*this->Device,
+    [](SharedDevice&)
+    {
+      SetHandlerWhilePressing([](int signal) { TakenOver.sa_sigaction(signal, nullptr, nullptr); });
+      raise(SIGINT); // there was none before: the process dies of it
+    });
+  EXPECT_TRUE(WIFSIGNALED(status));
+  EXPECT_EQ(WTERMSIG(status), SIGINT);
+}
+
 TEST_F(EmergencyStop, ExitTakesTheForceAway)
 {
   const int status = EndWhilePressing(*this->Device, [](SharedDevice&) { std::exit(3); });

@@ -22,7 +22,7 @@ from vtkmodules.vtkCommonCore import reference, vtkCommand, vtkObject, vtkObject
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 
 from . import vtkHapticsDevices, vtkHapticsFilters, vtkHapticsInteractors
-from .errors import ERROR, WARNING, checked, guarded, watch
+from .errors import ERROR, WARNING, HapticsError, checked, guarded, watch
 
 MODULES = (vtkHapticsFilters, vtkHapticsDevices, vtkHapticsInteractors)
 
@@ -200,8 +200,11 @@ class Scene(Extended):
         self.EngageInView(camera) if camera is not None else self.Engage()
         try:
             yield self
-        finally:
-            self.Release()
+        except BaseException:
+            with contextlib.suppress(HapticsError):  # the servo has stopped too: not what matters
+                self.Release()
+            raise
+        self.Release()
 
 
 def methods_of(class_):
