@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace haptics
 {
@@ -31,6 +32,10 @@ constexpr double LargestPassivityDamping = 4.0;
 constexpr double LargestShareOfDamping = 0.5;
 // After a late tick the force may not make up for all of the time that has passed.
 constexpr double LongestStep = 2.0; // nominal periods
+// Of the speed at which a spring's force grows as fast as the slew limit: a hand as slow as this is
+// at rest, or slower than the soft start itself pushes it; but no motion that the limit might meet.
+constexpr double RestShare = 0.03;
+constexpr double LargestRestShare = 0.3;
 }
 
 void ForceGuard::Restart(const SafetySettings& settings) noexcept
@@ -52,6 +57,9 @@ Vec3 ForceGuard::Force(const Contact& contact, double since, const ForceModel& m
   const double period = std::isfinite(since) ? std::max(0.0, since) : 0.0;
   const bool isPlain = contact.Felt.IsPlain;
   const bool isTouching = contact.IsTouching();
+  // Against the surface, which may move.
+  this->Step =
+    this->IsFirst ? Vec3{} : Sum(Sum(contact.Hip, -1.0, this->LastPosition), -1.0, contact.Carried);
   Vec3 force = this->Spring(contact, period, model, settings);
   force = Sum(force, 1.0, this->Damping(contact, period, settings));
   if (settings.PassivityControl || !isPlain)
@@ -87,12 +95,15 @@ Vec3 ForceGuard::Force(const Contact& contact, double since, const ForceModel& m
   else if (this->WasPaused)
   {
     this->StartSoftly(settings);
+    this->HasJump = true; // where the hand went meanwhile took no work
   }
   this->WasPaused = settings.Paused;
 
-  force = this->LimitSlew(force, period, model.MaximumForce, settings);
+  force = this->LimitSlew(force, contact, period, model.MaximumForce, settings);
   this->Passivity.Sent(force, contact.Carried);
-  this->Last = force;
+  this->IsFirst = false;
+  this->HasExchange = false;
+  this->HasJump = false;
   return force;
 }
 
@@ -119,8 +130,7 @@ Vec3 ForceGuard::Spring(const Contact& contact, double period, const ForceModel&
 Vec3 ForceGuard::Damping(
   const Contact& contact, double period, const SafetySettings& settings) noexcept
 {
-  // Against the surface, which may move; how far it did before it was touched nobody knows.
-  const Vec3 step = Sum(Sum(contact.Hip, -1.0, this->LastPosition), -1.0, contact.Carried);
+  // How far the surface moved before it was touched nobody knows.
   const bool knowsSpeed = this->WasTouching && period > 0.0;
   this->LastPosition = contact.Hip;
   this->WasTouching = contact.IsTouching();
@@ -132,42 +142,63 @@ Vec3 ForceGuard::Damping(
   }
   const Vec3 normal = Sum({}, 1.0 / depth, contact.Displacement);
   const double weight = period / (period + SpeedSmoothing);
-  this->NormalSpeed += weight * (Dot(step, normal) / period - this->NormalSpeed);
+  this->NormalSpeed += weight * (Dot(this->Step, normal) / period - this->NormalSpeed);
   // A surface pushes and never pulls: damping takes at most the spring's own force away.
   const double pull = this->Law.GetStiffness() * depth;
   return Sum({}, std::max(-settings.ContactDamping * this->NormalSpeed, -pull), normal);
 }
 
-Vec3 ForceGuard::LimitSlew(
-  const Vec3& force, double period, double maximumForce, const SafetySettings& settings) noexcept
+Vec3 ForceGuard::LimitSlew(const Vec3& force, const Contact& contact, double period,
+  double maximumForce, const SafetySettings& settings) noexcept
 {
   // Nor is a soft start over because its first tick was late.
   const double step = std::min(period, LongestStep * settings.NominalPeriod);
-  double rate = settings.SlewLimit;
-  SafetyLimit cause = ForceSlewed;
-  if (this->SoftTimeLeft > 0.0)
-  {
-    const double softRate = maximumForce / settings.SoftStartTime;
-    if (softRate < rate)
-    {
-      rate = softRate;
-      cause = SoftStarted;
-    }
-    this->SoftTimeLeft -= step;
-  }
+  const double slewRate = settings.SlewLimit;
+  const double softRate = settings.SoftStartTime > 0.0
+    ? std::min(slewRate, maximumForce / settings.SoftStartTime)
+    : slewRate;
+  const bool isStarting = this->SoftTimeLeft > 0.0;
+  this->SoftTimeLeft -= isStarting ? step : 0.0;
 
-  const double squaredLast = Dot(this->Last, this->Last);
-  const double share =
-    squaredLast > 0.0 ? std::clamp(Dot(force, this->Last) / squaredLast, 0.0, 1.0) : 0.0;
-  const Vec3 nearest = Sum({}, share, this->Last);
-  const Vec3 change = Sum(force, -1.0, nearest);
-  const double length = Length(change);
-  const double reach = rate * step;
-  if (length <= reach)
+  SlewRequest request;
+  request.Force = force;
+  request.Displacement = contact.IsTouching() ? contact.Displacement : Vec3{};
+  request.Step = this->Step;
+  request.Stiffness = this->Law.GetStiffness();
+  request.Reach = step * (isStarting ? softRate : slewRate);
+  request.SoftReach = step * softRate;
+  request.RestMotion = isStarting
+    ? std::numeric_limits<double>::infinity()
+    : step * std::min(RestShare * slewRate + softRate, LargestRestShare * slewRate) /
+      request.Stiffness; // infinite without stiffness: nobody asks
+  request.IsGiven = this->IsFirst;
+  const double depth = Length(request.Displacement);
+  if (this->HasJump)
   {
-    return force;
+    request.Change = std::numeric_limits<double>::infinity();
   }
-  this->Limits |= cause;
-  return Sum(nearest, reach / length, change);
+  else if (depth > 0.0)
+  {
+    const double hardened =
+      this->Stiffness > 0.0 ? std::max(0.0, request.Stiffness - this->Stiffness) : 0.0;
+    if (this->HasExchange)
+    {
+      request.Change = request.Stiffness * Length(contact.Carried) + hardened * depth;
+    }
+    // Surfaces with properties pay for theirs themselves.
+    else if (contact.Felt.IsPlain && this->WasPlain)
+    {
+      request.Hardening = hardened;
+    }
+  }
+  this->Stiffness = depth > 0.0 ? request.Stiffness : 0.0;
+  this->WasPlain = contact.Felt.IsPlain;
+
+  const Vec3 limited = this->Slew.Limit(request);
+  if (this->Slew.IsLimiting())
+  {
+    this->Limits |= isStarting || this->Slew.IsSoft() ? SoftStarted : ForceSlewed;
+  }
+  return limited;
 }
 }

@@ -4,6 +4,7 @@
 #include "ForceModel.h"
 #include "PassivityController.h"
 #include "SafetySettings.h"
+#include "SlewLimiter.h"
 #include "StiffnessLimit.h"
 #include "SurfaceForce.h"
 #include "Vec3.h"
@@ -18,7 +19,8 @@ namespace haptics
 ///     stiffness limit -> SurfaceForce -> contact damping -> passivity -> clamp -> slew,
 ///     soft start
 ///
-/// A force may shrink at once, but grows and turns no faster than the slew limit:
+/// A force may shrink at once, but grows and turns no faster than the slew limit, and what this
+/// does gives the hand no energy (class SlewLimiter):
 ///
 ///        allowed next force: within slew * T of the line from zero to the last force
 ///             ________
@@ -29,10 +31,17 @@ class VTKHAPTICSINTERACTORS_EXPORT ForceGuard
 public:
   /// Readies a new run; it begins with a soft start.
   void Restart(const SafetySettings& settings) noexcept;
-  /// From here on the force grows softly for a while: surfaces, transform or time have jumped.
+  /// From here on the force grows softly for a while: a run starts, or a pause or a halt has ended.
   void StartSoftly(const SafetySettings& settings) noexcept;
   /// The device has let go of the last force: the next one grows from zero.
-  void Release() noexcept { this->Last = {}; }
+  void Release() noexcept { this->Slew.Release(); }
+  ///@{
+  /// For the next force. Surfaces or their materials have been exchanged: what that does to it, by
+  /// Contact::Carried and by another stiffness, starts softly, and all else goes on.
+  void NoticeExchange() noexcept { this->HasExchange = true; }
+  /// The HIP has been put elsewhere, by another workspace: whatever the force grows starts softly.
+  void NoticeJump() noexcept { this->HasJump = true; }
+  ///@}
   /// The force to ask for [N]; finite, and never longer than `model` allows. `contact`: device
   /// frame; `period`: since the last tick [s]; below 0 or not finite counts as 0.
   Vec3 Force(const Contact& contact, double period, const ForceModel& model,
@@ -50,18 +59,24 @@ private:
   Vec3 Spring(const Contact& contact, double period, const ForceModel& model,
     const SafetySettings& settings) noexcept;
   Vec3 Damping(const Contact& contact, double period, const SafetySettings& settings) noexcept;
-  Vec3 LimitSlew(
-    const Vec3& force, double period, double maximumForce, const SafetySettings& settings) noexcept;
+  Vec3 LimitSlew(const Vec3& force, const Contact& contact, double period, double maximumForce,
+    const SafetySettings& settings) noexcept;
 
   StiffnessLimit Stiffener;
   SurfaceForce Law;
   PassivityController Passivity;
-  Vec3 Last{}; // the last force [N]
+  SlewLimiter Slew;
   Vec3 LastPosition{};
+  Vec3 Step{}; // of the HIP against the surface [m]
+  bool IsFirst = true;
+  bool HasExchange = false;
+  bool HasJump = false;
   bool WasTouching = false;
   bool WasPaused = false;
   double NormalSpeed = 0.0; // [m/s], smoothed
   double SoftTimeLeft = 0.0;
+  double Stiffness = 0.0; // of the last tick's contact; 0 in free space [N/m]
+  bool WasPlain = true;
   std::uint32_t Limits = 0;
 };
 }

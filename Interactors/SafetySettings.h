@@ -12,8 +12,8 @@ struct SafetySettings
 {
   /// How fast a force may grow or turn [N/s]; it may shrink at once.
   double SlewLimit = 1000.0;
-  /// For so long [s] after an engage or a change of surface, pause or transform, a force grows at
-  /// most so fast that it would take as long to the largest one. 0: off.
+  /// For so long [s] after an engage, a pause or a halt a force grows at most so fast that it would
+  /// take as long to the largest one; as fast goes what a change under the hand does to it. 0: off.
   double SoftStartTime = 0.1;
   /// Share of the stiffness that the device's damping allows at the measured periods.
   double StiffnessMargin = 0.9;
@@ -33,8 +33,8 @@ struct SafetySettings
 enum SafetyLimit : std::uint32_t
 {
   ForceClamped = 1,     ///< the device's or the user's largest force
-  ForceSlewed = 2,      ///< grew or turned faster than the slew limit
-  SoftStarted = 4,      ///< grew faster than a soft start lets it
+  ForceSlewed = 2,      ///< grew or turned faster than the slew limit, or still lacks that much
+  SoftStarted = 4,      ///< grew faster than a soft start lets it, or still lacks that much
   StiffnessLimited = 8, ///< the periods and the device's damping allow less than was asked for
   PassivityDamped = 16, ///< energy was taken back
   PausedForce = 32,     ///< paused

@@ -50,7 +50,6 @@ void ServoCycle::Begin(std::shared_ptr<DeviceChannel> channel, ServoState state)
   this->Now = TickRecord();
   this->Contacts.Restart();
   this->IsFirst = true;
-  this->MustPlace = true;
   this->State.store(state, std::memory_order_release);
 }
 
@@ -79,10 +78,18 @@ bool ServoCycle::Tick(double time) noexcept
     period = settings.Safety.NominalPeriod;
   }
   god.Object->Advance(period, this->Exchange.HasNext());
-  if (this->NoticeJumps(god, settings))
+  // What was published before the first tick is what the run begins with: no change.
+  if (!this->IsFirst && god.Generation != this->Now.Generation && !god.IsSeamless)
+  {
+    this->Guard.NoticeExchange();
+  }
+  if (this->IsFirst || this->Placements != settings.Placements)
   {
     god.Object->Place(hip);
+    this->Guard.StartSoftly(settings.Safety);
   }
+  this->Placements = settings.Placements;
+  this->IsFirst = false;
 
   const Contact& contact =
     this->Contacts.Touch(*god.Object, sample.Position, hip, settings.DeviceToWorld);
@@ -98,21 +105,6 @@ bool ServoCycle::Tick(double time) noexcept
   this->Now.Buttons = sample.Buttons;
   this->Record(god, force);
   return true;
-}
-
-bool ServoCycle::NoticeJumps(const NumberedGodObject& god, const ServoSettings& settings) noexcept
-{
-  const bool mustPlace = this->MustPlace || this->Placements != settings.Placements;
-  // What was published before the first tick is what the run begins with: no change.
-  const bool changed = !this->IsFirst && god.Generation != this->Now.Generation && !god.IsSeamless;
-  if (mustPlace || changed)
-  {
-    this->Guard.StartSoftly(settings.Safety);
-  }
-  this->MustPlace = false;
-  this->Placements = settings.Placements;
-  this->IsFirst = false;
-  return mustPlace;
 }
 
 void ServoCycle::Resume() noexcept

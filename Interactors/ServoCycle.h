@@ -97,7 +97,6 @@ public:
 
 private:
   void Record(const NumberedGodObject& god, const Vec3& force) noexcept;
-  bool NoticeJumps(const NumberedGodObject& god, const ServoSettings& settings) noexcept;
 
   GodObjectExchange Exchange;
   LatestValue<ServoSettings> NextSettings;
@@ -112,7 +111,6 @@ private:
   ContactTick Contacts;
   ForceGuard Guard;
   bool IsFirst = true;
-  bool MustPlace = true;
   std::uint64_t Placements = 0;
 };
 }

