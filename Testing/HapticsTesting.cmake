@@ -80,11 +80,13 @@ function (haptics_add_python_test name script)
     ENVIRONMENT       "${haptics_test_environment}")
 endfunction ()
 
-# Installs into a scratch prefix, then configures, builds and runs Consumer/ against that alone.
+# Installs into a scratch prefix and moves that, then configures, builds and runs Consumer/ against it
+# alone.
 function (haptics_add_consumer_test)
   set(prefix "${CMAKE_BINARY_DIR}/Testing/Consumer/install")
   add_test(NAME Consumer.Install
-    COMMAND "${CMAKE_COMMAND}" --install "${CMAKE_BINARY_DIR}" --prefix "${prefix}")
+    COMMAND "${CMAKE_COMMAND}" "-DBUILD=${CMAKE_BINARY_DIR}" "-DPREFIX=${prefix}"
+            -P "${CMAKE_CURRENT_SOURCE_DIR}/Consumer/TestInstall.cmake")
   add_test(NAME Consumer.BuildAndRun
     COMMAND "${CMAKE_CTEST_COMMAND}"
       --build-and-test "${CMAKE_CURRENT_SOURCE_DIR}/Consumer"
@@ -113,7 +115,7 @@ function (haptics_add_consumer_test)
   if (haptics_python_destination AND HAPTICS_BUILD_PARAVIEW_PLUGIN)
     # As a user does it, but for the library path: the installed files find each other without.
     add_test(NAME Consumer.InstalledPlugin
-      COMMAND sh -c ". '${prefix}/${CMAKE_INSTALL_DATAROOTDIR}/vtkhaptics/env.sh'; \
+      COMMAND bash -c ". '${prefix}/${CMAKE_INSTALL_DATAROOTDIR}/vtkhaptics/env.sh'; \
 LD_LIBRARY_PATH= exec '$<TARGET_FILE:ParaView::pvpython>' --force-offscreen-rendering \
 '${CMAKE_CURRENT_SOURCE_DIR}/ParaView/TestInstalledPlugin.py' '${prefix}'"
       WORKING_DIRECTORY "/")

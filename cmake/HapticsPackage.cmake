@@ -1,4 +1,5 @@
-# The CMake package VTKHaptics, and env.sh in the build folder.
+# What is installed besides modules and plugin: the CMake package VTKHaptics, env.sh, documents and
+# examples; and the target that removes all again.
 include(CMakePackageConfigHelpers)
 
 set(haptics_package_dir "${CMAKE_BINARY_DIR}/${haptics_cmake_destination}")
@@ -14,8 +15,24 @@ install(
     "${haptics_package_dir}/VTKHapticsConfigVersion.cmake"
     "${haptics_package_dir}/HapticsFindVTK.cmake"
   DESTINATION "${haptics_cmake_destination}")
-install(FILES "${PROJECT_SOURCE_DIR}/LICENSE"
-  DESTINATION "${CMAKE_INSTALL_DATAROOTDIR}/doc/vtkhaptics")
+# The documents lie as in the sources, so that their links lead somewhere.
+set(haptics_doc_destination "${CMAKE_INSTALL_DATAROOTDIR}/doc/vtkhaptics")
+install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${haptics_doc_destination}")
+file(GLOB haptics_documents RELATIVE "${PROJECT_SOURCE_DIR}" CONFIGURE_DEPENDS
+  "${PROJECT_SOURCE_DIR}/*.md"
+  "${PROJECT_SOURCE_DIR}/*/README.md"
+  "${PROJECT_SOURCE_DIR}/*/*/README.md"
+  "${PROJECT_SOURCE_DIR}/Data/images/*.*"
+  "${PROJECT_SOURCE_DIR}/Testing/Benchmarks/results/*.png"
+  "${PROJECT_SOURCE_DIR}/Testing/Consumer/CMakeLists.txt"
+  "${PROJECT_SOURCE_DIR}/Testing/Consumer/*.cxx"
+  "${PROJECT_SOURCE_DIR}/Interactors/Python/examples/*.*"
+  "${PROJECT_SOURCE_DIR}/Plugin/examples/*.*")
+foreach (document IN LISTS haptics_documents)
+  cmake_path(GET document PARENT_PATH folder)
+  install(FILES "${PROJECT_SOURCE_DIR}/${document}"
+    DESTINATION "${haptics_doc_destination}/${folder}")
+endforeach ()
 
 # env.sh, in the build folder and installed. The prefix may be chosen as late as in
 # `cmake --install`, so that the installed one is made there from half-filled text.
@@ -37,3 +54,10 @@ install(CODE "
     \"${CMAKE_BINARY_DIR}/installed/env.sh.in\" \"${CMAKE_BINARY_DIR}/installed/env.sh\" @ONLY)")
 install(FILES "${CMAKE_BINARY_DIR}/installed/env.sh"
   DESTINATION "${CMAKE_INSTALL_DATAROOTDIR}/vtkhaptics")
+
+# Not where another project includes this one and has such a target.
+if (NOT TARGET uninstall)
+  add_custom_target(uninstall
+    COMMAND "${CMAKE_COMMAND}" -P "${CMAKE_CURRENT_LIST_DIR}/Uninstall.cmake"
+    WORKING_DIRECTORY "${CMAKE_BINARY_DIR}")
+endif ()

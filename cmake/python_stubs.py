@@ -10,7 +10,7 @@ import os
 import re
 import sys
 
-import vtkhaptics  # loads the modules of VTK that the classes come from
+import vtkhaptics  # noqa: F401, loads the modules of VTK that the classes come from
 from vtkmodules import generate_pyi
 
 

@@ -3,7 +3,7 @@
 import importlib.util
 import sys
 
-import vtkmodules.vtkCommonCore  # before PyVista, so that it takes the same VTK
+import vtkmodules.vtkCommonCore  # noqa: F401, before PyVista, so that it takes the same VTK
 import vtkhaptics
 
 if not importlib.util.find_spec("pyvista"):

@@ -235,7 +235,6 @@ def _force_colors(strongest):
 
 def stroke_lines(trace, every=4):
     """The parts of a trace in contact, as lines with the point array ForceMagnitude [N]."""
-    points = vtk_to_numpy(trace.GetPoints().GetData())
     force = np.linalg.norm(vtk_to_numpy(trace.GetPointData().GetArray("Force")), axis=1)
     touching = vtk_to_numpy(trace.GetPointData().GetArray("ActiveConstraints")) > 0
     lines = vtkCellArray()
