@@ -1,5 +1,5 @@
-#ifndef DeviceChannel_h
-#define DeviceChannel_h
+#ifndef Haptics_DeviceChannel_h
+#define Haptics_DeviceChannel_h
 
 #include "vtkHapticsDevicesModule.h"
 

@@ -1,5 +1,5 @@
-#ifndef EndingSignals_h
-#define EndingSignals_h
+#ifndef Haptics_EndingSignals_h
+#define Haptics_EndingSignals_h
 
 #ifdef __unix__
 #include <array>

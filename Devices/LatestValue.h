@@ -1,5 +1,5 @@
-#ifndef LatestValue_h
-#define LatestValue_h
+#ifndef Haptics_LatestValue_h
+#define Haptics_LatestValue_h
 
 #include <array>
 #include <atomic>

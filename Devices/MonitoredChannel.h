@@ -1,8 +1,8 @@
-#ifndef MonitoredChannel_h
-#define MonitoredChannel_h
+#ifndef Haptics_MonitoredChannel_h
+#define Haptics_MonitoredChannel_h
 
-#include "DeviceChannel.h"
-#include "LatestValue.h"
+#include "haptics/Devices/DeviceChannel.h"
+#include "haptics/Devices/LatestValue.h"
 #include "vtkHapticsDevicesModule.h"
 
 #include <atomic>

@@ -1,5 +1,5 @@
-#ifndef ProcessOwner_h
-#define ProcessOwner_h
+#ifndef Haptics_ProcessOwner_h
+#define Haptics_ProcessOwner_h
 
 #include <thread>
 #include <utility>
@@ -20,12 +20,18 @@ class ProcessOwner
 {
 public:
 #ifdef __unix__
-  bool IsHere() const noexcept { return getpid() == this->Maker; }
+  bool IsHere() const noexcept
+  {
+    return getpid() == this->Maker;
+  }
 
 private:
   const pid_t Maker = getpid();
 #else
-  bool IsHere() const noexcept { return true; }
+  bool IsHere() const noexcept
+  {
+    return true;
+  }
 #endif
 };
 

@@ -1,6 +1,6 @@
 #include "vtkHapticDevice.h"
 
-#include "MonitoredChannel.h"
+#include "haptics/Devices/MonitoredChannel.h"
 
 #include <algorithm>
 

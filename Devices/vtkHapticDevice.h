@@ -14,8 +14,8 @@
  *
  * @sa vtkSimulatedHapticDevice vtkHapticServo
  */
-#ifndef vtkHapticDevice_h
-#define vtkHapticDevice_h
+#ifndef Haptics_vtkHapticDevice_h
+#define Haptics_vtkHapticDevice_h
 
 #include "vtkCommand.h"
 #include "vtkHapticsDevicesModule.h"

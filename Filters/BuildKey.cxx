@@ -1,4 +1,4 @@
-#include "BuildKey.h"
+#include "haptics/Filters/BuildKey.h"
 
 #include "vtkCellArray.h"
 #include "vtkDataArray.h"

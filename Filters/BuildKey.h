@@ -1,5 +1,5 @@
-#ifndef BuildKey_h
-#define BuildKey_h
+#ifndef Haptics_BuildKey_h
+#define Haptics_BuildKey_h
 
 #include "vtkType.h"
 

@@ -1,4 +1,4 @@
-#include "DuplicateTriangles.h"
+#include "haptics/Filters/DuplicateTriangles.h"
 
 #include <algorithm>
 #include <tuple>

@@ -1,7 +1,7 @@
-#ifndef DuplicateTriangles_h
-#define DuplicateTriangles_h
+#ifndef Haptics_DuplicateTriangles_h
+#define Haptics_DuplicateTriangles_h
 
-#include "TriangleSurface.h"
+#include "haptics/Surface/TriangleSurface.h"
 
 #include "vtkType.h"
 

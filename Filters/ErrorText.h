@@ -1,5 +1,5 @@
-#ifndef ErrorText_h
-#define ErrorText_h
+#ifndef Haptics_ErrorText_h
+#define Haptics_ErrorText_h
 
 #include <string>
 

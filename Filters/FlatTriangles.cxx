@@ -1,6 +1,6 @@
-#include "FlatTriangles.h"
+#include "haptics/Filters/FlatTriangles.h"
 
-#include "PolygonSplitter.h"
+#include "haptics/Filters/PolygonSplitter.h"
 
 #include <algorithm>
 #include <cstdint>

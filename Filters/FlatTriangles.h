@@ -1,7 +1,7 @@
-#ifndef FlatTriangles_h
-#define FlatTriangles_h
+#ifndef Haptics_FlatTriangles_h
+#define Haptics_FlatTriangles_h
 
-#include "TriangleSurface.h"
+#include "haptics/Surface/TriangleSurface.h"
 
 #include "vtkType.h"
 

@@ -1,5 +1,5 @@
-#ifndef NumberSetting_h
-#define NumberSetting_h
+#ifndef Haptics_NumberSetting_h
+#define Haptics_NumberSetting_h
 
 #include "vtkObject.h"
 #include "vtkSetGet.h"

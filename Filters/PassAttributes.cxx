@@ -1,4 +1,4 @@
-#include "PassAttributes.h"
+#include "haptics/Filters/PassAttributes.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkDataSetAttributes.h"

@@ -1,5 +1,5 @@
-#ifndef PassAttributes_h
-#define PassAttributes_h
+#ifndef Haptics_PassAttributes_h
+#define Haptics_PassAttributes_h
 
 #include "vtkType.h"
 

@@ -1,7 +1,7 @@
-#ifndef PointMerger_h
-#define PointMerger_h
+#ifndef Haptics_PointMerger_h
+#define Haptics_PointMerger_h
 
-#include "Vec3.h"
+#include "haptics/Math/Vec3.h"
 
 #include <cstddef>
 #include <cstdint>

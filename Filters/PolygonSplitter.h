@@ -1,7 +1,7 @@
-#ifndef PolygonSplitter_h
-#define PolygonSplitter_h
+#ifndef Haptics_PolygonSplitter_h
+#define Haptics_PolygonSplitter_h
 
-#include "Vec3.h"
+#include "haptics/Math/Vec3.h"
 
 #include <array>
 #include <vector>

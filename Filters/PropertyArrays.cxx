@@ -1,4 +1,4 @@
-#include "PropertyArrays.h"
+#include "haptics/Filters/PropertyArrays.h"
 
 #include "vtkDataArray.h"
 #include "vtkPiecewiseFunction.h"

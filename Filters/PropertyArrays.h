@@ -1,7 +1,7 @@
-#ifndef PropertyArrays_h
-#define PropertyArrays_h
+#ifndef Haptics_PropertyArrays_h
+#define Haptics_PropertyArrays_h
 
-#include "SurfaceProperties.h"
+#include "haptics/Material/SurfaceProperties.h"
 
 #include "vtkType.h"
 

@@ -1,9 +1,9 @@
-#include "SurfaceCleaner.h"
+#include "haptics/Filters/SurfaceCleaner.h"
 
-#include "DuplicateTriangles.h"
-#include "FlatTriangles.h"
-#include "PointMerger.h"
-#include "PolygonSplitter.h"
+#include "haptics/Filters/DuplicateTriangles.h"
+#include "haptics/Filters/FlatTriangles.h"
+#include "haptics/Filters/PointMerger.h"
+#include "haptics/Filters/PolygonSplitter.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"

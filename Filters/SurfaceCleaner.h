@@ -1,7 +1,7 @@
-#ifndef SurfaceCleaner_h
-#define SurfaceCleaner_h
+#ifndef Haptics_SurfaceCleaner_h
+#define Haptics_SurfaceCleaner_h
 
-#include "TriangleSurface.h"
+#include "haptics/Surface/TriangleSurface.h"
 
 #include "vtkType.h"
 

@@ -1,6 +1,6 @@
-#include "SurfacePreparation.h"
+#include "haptics/Filters/SurfacePreparation.h"
 
-#include "PassAttributes.h"
+#include "haptics/Filters/PassAttributes.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"

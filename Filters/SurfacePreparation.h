@@ -1,9 +1,9 @@
-#ifndef SurfacePreparation_h
-#define SurfacePreparation_h
+#ifndef Haptics_SurfacePreparation_h
+#define Haptics_SurfacePreparation_h
 
-#include "BuildKey.h"
-#include "SurfaceCleaner.h"
-#include "TriangleSurface.h"
+#include "haptics/Filters/BuildKey.h"
+#include "haptics/Filters/SurfaceCleaner.h"
+#include "haptics/Surface/TriangleSurface.h"
 
 #include "vtkHapticsFiltersModule.h"
 #include "vtkNew.h"

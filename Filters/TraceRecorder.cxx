@@ -1,4 +1,4 @@
-#include "TraceRecorder.h"
+#include "haptics/Filters/TraceRecorder.h"
 
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"

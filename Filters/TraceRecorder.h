@@ -1,8 +1,8 @@
-#ifndef TraceRecorder_h
-#define TraceRecorder_h
+#ifndef Haptics_TraceRecorder_h
+#define Haptics_TraceRecorder_h
 
-#include "TickRecord.h"
-#include "Vec3.h"
+#include "haptics/Math/Vec3.h"
+#include "haptics/Tick/TickRecord.h"
 #include "vtkHapticsFiltersModule.h"
 #include "vtkType.h"
 

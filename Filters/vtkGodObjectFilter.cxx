@@ -1,7 +1,7 @@
 #include "vtkGodObjectFilter.h"
 
-#include "NumberSetting.h"
-#include "SurfacePreparation.h"
+#include "haptics/Filters/NumberSetting.h"
+#include "haptics/Filters/SurfacePreparation.h"
 #include "vtkHapticProperties.h"
 
 #include "vtkCellArray.h"

@@ -42,16 +42,16 @@
  * @sa vtkHapticProperties vtkGodObjectTrace vtkHapticScene
  */
 
-#ifndef vtkGodObjectFilter_h
-#define vtkGodObjectFilter_h
+#ifndef Haptics_vtkGodObjectFilter_h
+#define Haptics_vtkGodObjectFilter_h
 
 #include "vtkHapticsFiltersModule.h"
 #include "vtkPolyDataAlgorithm.h"
 
 #ifndef __VTK_WRAP__
-#include "SurfacePreparation.h" // for haptics::SurfacePreparation
-#include "SurfaceProperties.h"  // for haptics::SurfaceProperties
-#include "TriangleSurface.h"    // for haptics::TriangleSurface
+#include "haptics/Filters/SurfacePreparation.h" // for haptics::SurfacePreparation
+#include "haptics/Material/SurfaceProperties.h"  // for haptics::SurfaceProperties
+#include "haptics/Surface/TriangleSurface.h"    // for haptics::TriangleSurface
 
 #include <memory> // for std::shared_ptr
 #endif

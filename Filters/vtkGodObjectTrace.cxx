@@ -1,14 +1,14 @@
 #include "vtkGodObjectTrace.h"
 
-#include "ErrorText.h"
-#include "NumberSetting.h"
-#include "TraceRecorder.h"
+#include "haptics/Filters/ErrorText.h"
+#include "haptics/Filters/NumberSetting.h"
+#include "haptics/Filters/TraceRecorder.h"
 #include "vtkGodObjectFilter.h"
 #include "vtkHapticProperties.h"
 
-#include "ContactTick.h"
-#include "GodObject.h"
-#include "SurfaceForce.h"
+#include "haptics/Contact/GodObject.h"
+#include "haptics/Material/SurfaceForce.h"
+#include "haptics/Tick/ContactTick.h"
 
 #include "vtkAlgorithmOutput.h"
 #include "vtkCellData.h"
@@ -237,7 +237,7 @@ void vtkGodObjectTrace::Replay(vtkPolyData* path, vtkGodObjectFilter* prepared, 
   deviceToWorld.Scale = 1.0 / this->WorldToDeviceScale;
   haptics::ContactTick tick;
   haptics::SurfaceForce law;
-  haptics::FeelLimits limits;
+  haptics::MaterialLimits limits;
   limits.MaximumForce = this->MaximumForce;
   haptics::TickRecord record;
   haptics::TraceRecorder recorder;

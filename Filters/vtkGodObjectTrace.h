@@ -39,8 +39,8 @@
  * @sa vtkGodObjectFilter
  */
 
-#ifndef vtkGodObjectTrace_h
-#define vtkGodObjectTrace_h
+#ifndef Haptics_vtkGodObjectTrace_h
+#define Haptics_vtkGodObjectTrace_h
 
 #include "vtkHapticsFiltersModule.h"
 #include "vtkNew.h" // for vtkNew

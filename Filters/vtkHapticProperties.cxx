@@ -1,7 +1,7 @@
 #include "vtkHapticProperties.h"
 
-#include "NumberSetting.h"
-#include "PropertyArrays.h"
+#include "haptics/Filters/NumberSetting.h"
+#include "haptics/Filters/PropertyArrays.h"
 
 #include "vtkDataArray.h"
 #include "vtkImageData.h"

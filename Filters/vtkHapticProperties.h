@@ -32,8 +32,8 @@
  * @sa vtkGodObjectFilter vtkHapticScene haptics::SurfaceForce haptics::Friction
  */
 
-#ifndef vtkHapticProperties_h
-#define vtkHapticProperties_h
+#ifndef Haptics_vtkHapticProperties_h
+#define Haptics_vtkHapticProperties_h
 
 #include "vtkHapticsFiltersModule.h"
 #include "vtkNew.h" // for vtkNew
@@ -43,7 +43,7 @@
 #include <array> // for std::array
 
 #ifndef __VTK_WRAP__
-#include "SurfaceProperties.h" // for haptics::SurfaceProperties
+#include "haptics/Material/SurfaceProperties.h" // for haptics::SurfaceProperties
 
 #include <functional> // for std::function
 #include <memory>     // for std::shared_ptr

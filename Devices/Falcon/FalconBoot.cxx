@@ -1,6 +1,6 @@
-#include "FalconBoot.h"
+#include "haptics/Devices/Falcon/FalconBoot.h"
 
-#include "FalconUsb.h"
+#include "haptics/Devices/Falcon/FalconUsb.h"
 
 #include <algorithm>
 #include <array>

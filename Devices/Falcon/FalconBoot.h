@@ -1,5 +1,5 @@
-#ifndef FalconBoot_h
-#define FalconBoot_h
+#ifndef Haptics_FalconBoot_h
+#define Haptics_FalconBoot_h
 
 #include <cstdint>
 #include <functional>

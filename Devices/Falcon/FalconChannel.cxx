@@ -1,6 +1,6 @@
-#include "FalconChannel.h"
+#include "haptics/Devices/Falcon/FalconChannel.h"
 
-#include "FalconLink.h"
+#include "haptics/Devices/Falcon/FalconLink.h"
 
 #include <algorithm>
 #include <cmath>

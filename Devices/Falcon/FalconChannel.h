@@ -1,8 +1,8 @@
-#ifndef FalconChannel_h
-#define FalconChannel_h
+#ifndef Haptics_FalconChannel_h
+#define Haptics_FalconChannel_h
 
-#include "FalconKinematics.h"
-#include "MonitoredChannel.h"
+#include "haptics/Devices/Falcon/FalconKinematics.h"
+#include "haptics/Devices/MonitoredChannel.h"
 #include "vtkHapticsDevicesModule.h"
 
 #include <atomic>

@@ -1,4 +1,4 @@
-#include "FalconExchange.h"
+#include "haptics/Devices/Falcon/FalconExchange.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,8 +1,8 @@
-#ifndef FalconExchange_h
-#define FalconExchange_h
+#ifndef Haptics_FalconExchange_h
+#define Haptics_FalconExchange_h
 
-#include "FalconLink.h"
-#include "FalconUsb.h"
+#include "haptics/Devices/Falcon/FalconLink.h"
+#include "haptics/Devices/Falcon/FalconUsb.h"
 
 #include <cstdint>
 #include <functional>

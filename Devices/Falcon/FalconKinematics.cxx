@@ -1,4 +1,4 @@
-#include "FalconKinematics.h"
+#include "haptics/Devices/Falcon/FalconKinematics.h"
 
 #include <algorithm>
 #include <cmath>

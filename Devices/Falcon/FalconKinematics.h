@@ -1,5 +1,5 @@
-#ifndef FalconKinematics_h
-#define FalconKinematics_h
+#ifndef Haptics_FalconKinematics_h
+#define Haptics_FalconKinematics_h
 
 #include "vtkHapticsDevicesModule.h"
 

@@ -1,8 +1,8 @@
-#ifndef FalconLink_h
-#define FalconLink_h
+#ifndef Haptics_FalconLink_h
+#define Haptics_FalconLink_h
 
-#include "FalconPacket.h"
-#include "LatestValue.h"
+#include "haptics/Devices/Falcon/FalconPacket.h"
+#include "haptics/Devices/LatestValue.h"
 
 #include <semaphore.h>
 

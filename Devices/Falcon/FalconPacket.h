@@ -1,5 +1,5 @@
-#ifndef FalconPacket_h
-#define FalconPacket_h
+#ifndef Haptics_FalconPacket_h
+#define Haptics_FalconPacket_h
 
 #include "vtkHapticsDevicesModule.h"
 

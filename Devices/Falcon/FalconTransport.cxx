@@ -1,9 +1,9 @@
-#include "FalconTransport.h"
+#include "haptics/Devices/Falcon/FalconTransport.h"
 
-#include "EndingSignals.h"
-#include "FalconBoot.h"
-#include "FalconExchange.h"
-#include "FalconUsb.h"
+#include "haptics/Devices/EndingSignals.h"
+#include "haptics/Devices/Falcon/FalconBoot.h"
+#include "haptics/Devices/Falcon/FalconExchange.h"
+#include "haptics/Devices/Falcon/FalconUsb.h"
 
 #include <pthread.h>
 

@@ -1,8 +1,8 @@
-#ifndef FalconTransport_h
-#define FalconTransport_h
+#ifndef Haptics_FalconTransport_h
+#define Haptics_FalconTransport_h
 
-#include "FalconLink.h"
-#include "ProcessOwner.h"
+#include "haptics/Devices/Falcon/FalconLink.h"
+#include "haptics/Devices/ProcessOwner.h"
 #include "vtkHapticsDevicesModule.h"
 
 #include <atomic>

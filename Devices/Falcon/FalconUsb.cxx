@@ -1,4 +1,4 @@
-#include "FalconUsb.h"
+#include "haptics/Devices/Falcon/FalconUsb.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
-#ifndef FalconUsb_h
-#define FalconUsb_h
+#ifndef Haptics_FalconUsb_h
+#define Haptics_FalconUsb_h
 
-#include "FalconPacket.h"
+#include "haptics/Devices/Falcon/FalconPacket.h"
 
 #include <libusb.h>
 

@@ -1,7 +1,7 @@
 #include "vtkFalconHapticDevice.h"
 
-#include "FalconChannel.h"
-#include "FalconTransport.h"
+#include "haptics/Devices/Falcon/FalconChannel.h"
+#include "haptics/Devices/Falcon/FalconTransport.h"
 
 #include "vtkObjectFactory.h"
 

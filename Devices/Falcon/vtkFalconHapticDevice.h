@@ -25,8 +25,8 @@
  *
  * @sa vtkHapticDevice vtkHapticServo
  */
-#ifndef vtkFalconHapticDevice_h
-#define vtkFalconHapticDevice_h
+#ifndef Haptics_vtkFalconHapticDevice_h
+#define Haptics_vtkFalconHapticDevice_h
 
 #include "vtkHapticDevice.h"
 

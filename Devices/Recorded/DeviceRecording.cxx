@@ -1,4 +1,4 @@
-#include "DeviceRecording.h"
+#include "haptics/Devices/Recorded/DeviceRecording.h"
 
 #include <cerrno>
 #include <cmath>

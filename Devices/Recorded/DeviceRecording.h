@@ -1,5 +1,5 @@
-#ifndef DeviceRecording_h
-#define DeviceRecording_h
+#ifndef Haptics_DeviceRecording_h
+#define Haptics_DeviceRecording_h
 
 #include "vtkHapticsDevicesModule.h"
 

@@ -1,7 +1,7 @@
 #include "vtkRecordedHapticDevice.h"
 
-#include "DeviceRecording.h"
-#include "MonitoredChannel.h"
+#include "haptics/Devices/MonitoredChannel.h"
+#include "haptics/Devices/Recorded/DeviceRecording.h"
 
 #include "vtkObjectFactory.h"
 

@@ -18,8 +18,8 @@
  *
  * @sa vtkHapticServo vtkSimulatedHapticDevice haptics::RecordingWriter
  */
-#ifndef vtkRecordedHapticDevice_h
-#define vtkRecordedHapticDevice_h
+#ifndef Haptics_vtkRecordedHapticDevice_h
+#define Haptics_vtkRecordedHapticDevice_h
 
 #include "vtkHapticDevice.h"
 

@@ -1,5 +1,5 @@
-#ifndef SharedExchange_h
-#define SharedExchange_h
+#ifndef Haptics_SharedExchange_h
+#define Haptics_SharedExchange_h
 
 #include <array>
 #include <cstddef>
@@ -20,8 +20,8 @@ enum SharedValue : std::size_t
   HandButtons = 4, ///< a whole number; bit i is set while button i is held
   HandLost,        ///< other than 0: the device is lost
   ForceSequence = 8,
-  ForceValue,      ///< 3 values [N], device frame
-  ForceLive = 12,  ///< 1 while a servo renews the force; else there is none
+  ForceValue,     ///< 3 values [N], device frame
+  ForceLive = 12, ///< 1 while a servo renews the force; else there is none
   SharedSize = 16
 };
 

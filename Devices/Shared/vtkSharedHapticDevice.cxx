@@ -1,7 +1,7 @@
 #include "vtkSharedHapticDevice.h"
 
-#include "MonitoredChannel.h"
-#include "SharedExchange.h"
+#include "haptics/Devices/MonitoredChannel.h"
+#include "haptics/Devices/Shared/SharedExchange.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkObjectFactory.h"

@@ -1,6 +1,7 @@
 /**
  * @class   vtkSharedHapticDevice
- * @brief   a device of one's own, in any language: positions in and forces out through shared memory
+ * @brief   a device of one's own, in any language: positions in and forces out through shared
+ * memory
  *
  * The program that drives the device calls Exchange() about a thousand times a second from a thread
  * of its own; or it writes to GetSharedArray() itself, from another process too, by the layout of
@@ -16,15 +17,16 @@
  * Timeout the device is lost, and the servo ends with zero force in the same tick; so where the
  * program says that it is lost, and where a position is not finite. The force in the shared memory
  * is zero after a run, and counts only while ForceLive is 1, which it is not from Close() on nor
- * while the watchdog has halted the device. A program that drives motors has to withdraw a force by itself whose
- * ForceSequence does not change any more, which is what it sees of a process that crashed.
+ * while the watchdog has halted the device. A program that drives motors has to withdraw a force by
+ * itself whose ForceSequence does not change any more, which is what it sees of a process that
+ * crashed.
  *
  * Exchange() is for any one thread; all else for the GUI thread.
  *
  * @sa vtkHapticDevice
  */
-#ifndef vtkSharedHapticDevice_h
-#define vtkSharedHapticDevice_h
+#ifndef Haptics_vtkSharedHapticDevice_h
+#define Haptics_vtkSharedHapticDevice_h
 
 #include "vtkHapticDevice.h"
 #include "vtkSmartPointer.h"

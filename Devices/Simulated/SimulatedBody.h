@@ -1,7 +1,7 @@
-#ifndef SimulatedBody_h
-#define SimulatedBody_h
+#ifndef Haptics_SimulatedBody_h
+#define Haptics_SimulatedBody_h
 
-#include "SimulatedPath.h"
+#include "haptics/Devices/Simulated/SimulatedPath.h"
 #include "vtkHapticsDevicesModule.h"
 
 #include <array>

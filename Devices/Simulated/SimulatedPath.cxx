@@ -1,4 +1,4 @@
-#include "SimulatedPath.h"
+#include "haptics/Devices/Simulated/SimulatedPath.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
-#ifndef SimulatedPath_h
-#define SimulatedPath_h
+#ifndef Haptics_SimulatedPath_h
+#define Haptics_SimulatedPath_h
 
 #include "vtkHapticsDevicesModule.h"
 

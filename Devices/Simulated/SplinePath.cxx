@@ -1,4 +1,4 @@
-#include "SplinePath.h"
+#include "haptics/Devices/Simulated/SplinePath.h"
 
 #include "vtkKochanekSpline.h"
 #include "vtkNew.h"

@@ -1,7 +1,7 @@
-#ifndef SplinePath_h
-#define SplinePath_h
+#ifndef Haptics_SplinePath_h
+#define Haptics_SplinePath_h
 
-#include "SimulatedPath.h"
+#include "haptics/Devices/Simulated/SimulatedPath.h"
 
 namespace haptics
 {

@@ -1,7 +1,7 @@
-#ifndef StrokePattern_h
-#define StrokePattern_h
+#ifndef Haptics_StrokePattern_h
+#define Haptics_StrokePattern_h
 
-#include "SimulatedPath.h"
+#include "haptics/Devices/Simulated/SimulatedPath.h"
 #include "vtkHapticsDevicesModule.h"
 
 #include <string>

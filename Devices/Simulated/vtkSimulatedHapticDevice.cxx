@@ -1,11 +1,11 @@
 #include "vtkSimulatedHapticDevice.h"
 
-#include "LatestValue.h"
-#include "MonitoredChannel.h"
-#include "SimulatedBody.h"
-#include "SimulatedPath.h"
-#include "SplinePath.h"
-#include "StrokePattern.h"
+#include "haptics/Devices/LatestValue.h"
+#include "haptics/Devices/MonitoredChannel.h"
+#include "haptics/Devices/Simulated/SimulatedBody.h"
+#include "haptics/Devices/Simulated/SimulatedPath.h"
+#include "haptics/Devices/Simulated/SplinePath.h"
+#include "haptics/Devices/Simulated/StrokePattern.h"
 
 #include "vtkCellArray.h"
 #include "vtkDataArray.h"

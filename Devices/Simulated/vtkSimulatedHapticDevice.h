@@ -28,8 +28,8 @@
  *
  * All methods are for the GUI thread; none waits for the servo.
  */
-#ifndef vtkSimulatedHapticDevice_h
-#define vtkSimulatedHapticDevice_h
+#ifndef Haptics_vtkSimulatedHapticDevice_h
+#define Haptics_vtkSimulatedHapticDevice_h
 
 #include "vtkHapticDevice.h"
 

@@ -1,6 +1,6 @@
 #include "ExactEngine.h"
 
-#include "CollisionEngine.h"
+#include "haptics/Surface/CollisionEngine.h"
 
 #include <CGAL/AABB_tree.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

@@ -1,5 +1,5 @@
-#ifndef ExactEngine_h
-#define ExactEngine_h
+#ifndef Haptics_ExactEngine_h
+#define Haptics_ExactEngine_h
 
 namespace haptics
 {

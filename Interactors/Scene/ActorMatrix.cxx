@@ -1,4 +1,4 @@
-#include "ActorMatrix.h"
+#include "haptics/Scene/ActorMatrix.h"
 
 #include "vtkMath.h"
 #include "vtkMatrix4x4.h"

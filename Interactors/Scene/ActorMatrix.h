@@ -1,8 +1,8 @@
-#ifndef ActorMatrix_h
-#define ActorMatrix_h
+#ifndef Haptics_ActorMatrix_h
+#define Haptics_ActorMatrix_h
 
-#include "RigidPose.h"
-#include "Vec3.h"
+#include "haptics/Math/RigidPose.h"
+#include "haptics/Math/Vec3.h"
 
 #include <array>
 #include <optional>

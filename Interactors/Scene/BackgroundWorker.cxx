@@ -1,4 +1,4 @@
-#include "BackgroundWorker.h"
+#include "haptics/Scene/BackgroundWorker.h"
 
 #include <system_error>
 #include <utility>

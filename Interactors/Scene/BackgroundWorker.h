@@ -1,7 +1,7 @@
-#ifndef BackgroundWorker_h
-#define BackgroundWorker_h
+#ifndef Haptics_BackgroundWorker_h
+#define Haptics_BackgroundWorker_h
 
-#include "ProcessOwner.h"
+#include "haptics/Devices/ProcessOwner.h"
 
 #include <atomic>
 #include <condition_variable>

@@ -1,4 +1,4 @@
-#include "GeodesicPath.h"
+#include "haptics/Scene/GeodesicPath.h"
 
 #include "vtkMath.h"
 

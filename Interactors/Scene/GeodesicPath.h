@@ -1,8 +1,8 @@
-#ifndef GeodesicPath_h
-#define GeodesicPath_h
+#ifndef Haptics_GeodesicPath_h
+#define Haptics_GeodesicPath_h
 
-#include "TriangleSurface.h"
-#include "Vec3.h"
+#include "haptics/Math/Vec3.h"
+#include "haptics/Surface/TriangleSurface.h"
 
 #include <cstdint>
 #include <vector>

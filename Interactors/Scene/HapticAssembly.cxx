@@ -1,6 +1,6 @@
-#include "HapticAssembly.h"
+#include "haptics/Scene/HapticAssembly.h"
 
-#include "SurfaceSet.h"
+#include "haptics/Scene/SurfaceSet.h"
 #include "vtkActor.h"
 #include "vtkAssemblyNode.h"
 #include "vtkAssemblyPath.h"

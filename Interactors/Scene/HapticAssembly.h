@@ -1,5 +1,5 @@
-#ifndef HapticAssembly_h
-#define HapticAssembly_h
+#ifndef Haptics_HapticAssembly_h
+#define Haptics_HapticAssembly_h
 
 #include "vtkAssembly.h"
 #include "vtkSmartPointer.h"

@@ -1,6 +1,6 @@
-#include "HapticGrip.h"
+#include "haptics/Scene/HapticGrip.h"
 
-#include "SurfaceSet.h"
+#include "haptics/Scene/SurfaceSet.h"
 #include "vtkActor.h"
 #include "vtkMath.h"
 #include "vtkMatrix4x4.h"

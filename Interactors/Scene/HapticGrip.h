@@ -1,9 +1,9 @@
-#ifndef HapticGrip_h
-#define HapticGrip_h
+#ifndef Haptics_HapticGrip_h
+#define Haptics_HapticGrip_h
 
-#include "ActorMatrix.h"
-#include "TickRecord.h"
-#include "Vec3.h"
+#include "haptics/Math/Vec3.h"
+#include "haptics/Scene/ActorMatrix.h"
+#include "haptics/Tick/TickRecord.h"
 
 #include <cstdint>
 #include <set>

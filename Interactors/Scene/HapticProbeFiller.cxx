@@ -1,4 +1,4 @@
-#include "HapticProbeFiller.h"
+#include "haptics/Scene/HapticProbeFiller.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"

@@ -1,9 +1,9 @@
-#ifndef HapticProbeFiller_h
-#define HapticProbeFiller_h
+#ifndef Haptics_HapticProbeFiller_h
+#define Haptics_HapticProbeFiller_h
 
-#include "RigidPose.h"
-#include "TickRecord.h"
-#include "TriangleSurface.h"
+#include "haptics/Math/RigidPose.h"
+#include "haptics/Surface/TriangleSurface.h"
+#include "haptics/Tick/TickRecord.h"
 #include "vtkHapticProbe.h"
 
 class vtkPolyData;

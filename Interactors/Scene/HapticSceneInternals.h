@@ -1,13 +1,13 @@
-#ifndef HapticSceneInternals_h
-#define HapticSceneInternals_h
+#ifndef Haptics_HapticSceneInternals_h
+#define Haptics_HapticSceneInternals_h
 
-#include "BackgroundWorker.h"
-#include "HapticAssembly.h"
-#include "HapticGrip.h"
-#include "SceneEvents.h"
-#include "SurfaceSet.h"
-#include "TickRecord.h"
-#include "TraceRecorder.h"
+#include "haptics/Filters/TraceRecorder.h"
+#include "haptics/Scene/BackgroundWorker.h"
+#include "haptics/Scene/HapticAssembly.h"
+#include "haptics/Scene/HapticGrip.h"
+#include "haptics/Scene/SceneEvents.h"
+#include "haptics/Scene/SurfaceSet.h"
+#include "haptics/Tick/TickRecord.h"
 #include "vtkHapticScene.h"
 
 #include <array>

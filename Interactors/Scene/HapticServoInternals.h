@@ -1,10 +1,10 @@
-#ifndef HapticServoInternals_h
-#define HapticServoInternals_h
+#ifndef Haptics_HapticServoInternals_h
+#define Haptics_HapticServoInternals_h
 
-#include "RecordingChannel.h"
-#include "ServoCycle.h"
-#include "ServoLoop.h"
-#include "ServoStatistics.h"
+#include "haptics/Servo/RecordingChannel.h"
+#include "haptics/Servo/ServoCycle.h"
+#include "haptics/Servo/ServoLoop.h"
+#include "haptics/Servo/ServoStatistics.h"
 #include "vtkHapticServo.h"
 
 /// The plain parts of a vtkHapticServo, for its own source files.

@@ -1,6 +1,6 @@
-#include "HapticSurface.h"
+#include "haptics/Scene/HapticSurface.h"
 
-#include "ErrorText.h"
+#include "haptics/Filters/ErrorText.h"
 #include "vtkActor.h"
 #include "vtkAlgorithmOutput.h"
 #include "vtkBoundingBox.h"

@@ -1,10 +1,10 @@
-#ifndef HapticSurface_h
-#define HapticSurface_h
+#ifndef Haptics_HapticSurface_h
+#define Haptics_HapticSurface_h
 
-#include "SurfaceBuild.h"
-#include "SurfaceMotion.h"
-#include "SurfaceProperties.h"
-#include "TriangleSurface.h"
+#include "haptics/Material/SurfaceProperties.h"
+#include "haptics/Scene/SurfaceBuild.h"
+#include "haptics/Surface/SurfaceMotion.h"
+#include "haptics/Surface/TriangleSurface.h"
 #include "vtkActor.h"
 #include "vtkCallbackCommand.h"
 #include "vtkNew.h"

@@ -1,5 +1,5 @@
 // How a HapticSurface builds what is touched, and takes it over.
-#include "HapticSurface.h"
+#include "haptics/Scene/HapticSurface.h"
 
 #include "vtkGodObjectFilter.h"
 #include "vtkIdTypeArray.h"

@@ -1,5 +1,5 @@
 // How a HapticSurface follows its actor's matrix.
-#include "HapticSurface.h"
+#include "haptics/Scene/HapticSurface.h"
 
 #include "vtkMatrix4x4.h"
 

@@ -1,4 +1,4 @@
-#include "SceneEvents.h"
+#include "haptics/Scene/SceneEvents.h"
 
 #include "vtkHapticScene.h"
 

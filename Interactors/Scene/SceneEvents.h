@@ -1,8 +1,8 @@
-#ifndef SceneEvents_h
-#define SceneEvents_h
+#ifndef Haptics_SceneEvents_h
+#define Haptics_SceneEvents_h
 
-#include "SurfaceSet.h"
-#include "TickRecord.h"
+#include "haptics/Scene/SurfaceSet.h"
+#include "haptics/Tick/TickRecord.h"
 #include "vtkHapticProbe.h"
 #include "vtkSmartPointer.h"
 

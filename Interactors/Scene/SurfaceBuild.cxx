@@ -1,6 +1,6 @@
-#include "SurfaceBuild.h"
+#include "haptics/Scene/SurfaceBuild.h"
 
-#include "GodObject.h"
+#include "haptics/Contact/GodObject.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
-#ifndef SurfaceBuild_h
-#define SurfaceBuild_h
+#ifndef Haptics_SurfaceBuild_h
+#define Haptics_SurfaceBuild_h
 
-#include "ActorMatrix.h"
-#include "BackgroundWorker.h"
-#include "SurfaceDeformer.h"
-#include "SurfacePreparation.h"
-#include "TriangleSurface.h"
+#include "haptics/Filters/SurfacePreparation.h"
+#include "haptics/Scene/ActorMatrix.h"
+#include "haptics/Scene/BackgroundWorker.h"
+#include "haptics/Surface/SurfaceDeformer.h"
+#include "haptics/Surface/TriangleSurface.h"
 
 #include <functional>
 #include <memory>

@@ -1,4 +1,4 @@
-#include "SurfaceRay.h"
+#include "haptics/Scene/SurfaceRay.h"
 
 #include "vtkMath.h"
 

@@ -1,8 +1,8 @@
-#ifndef SurfaceRay_h
-#define SurfaceRay_h
+#ifndef Haptics_SurfaceRay_h
+#define Haptics_SurfaceRay_h
 
-#include "TriangleSurface.h"
-#include "Vec3.h"
+#include "haptics/Math/Vec3.h"
+#include "haptics/Surface/TriangleSurface.h"
 
 #include <optional>
 

@@ -1,7 +1,7 @@
-#include "SurfaceSet.h"
+#include "haptics/Scene/SurfaceSet.h"
 
-#include "HapticProbeFiller.h"
-#include "SurfaceRay.h"
+#include "haptics/Scene/HapticProbeFiller.h"
+#include "haptics/Scene/SurfaceRay.h"
 #include "vtkActor.h"
 
 #include <algorithm>

@@ -1,9 +1,9 @@
-#ifndef SurfaceSet_h
-#define SurfaceSet_h
+#ifndef Haptics_SurfaceSet_h
+#define Haptics_SurfaceSet_h
 
-#include "HapticSurface.h"
-#include "TickRecord.h"
-#include "TouchedSurface.h"
+#include "haptics/Contact/TouchedSurface.h"
+#include "haptics/Scene/HapticSurface.h"
+#include "haptics/Tick/TickRecord.h"
 
 #include <cstdint>
 #include <map>

@@ -1,4 +1,4 @@
-#include "WorkspaceFit.h"
+#include "haptics/Scene/WorkspaceFit.h"
 
 #include "vtkCamera.h"
 #include "vtkMatrix4x4.h"

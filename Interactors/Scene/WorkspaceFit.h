@@ -1,5 +1,5 @@
-#ifndef WorkspaceFit_h
-#define WorkspaceFit_h
+#ifndef Haptics_WorkspaceFit_h
+#define Haptics_WorkspaceFit_h
 
 #include <string>
 

@@ -1,6 +1,6 @@
 #include "vtkHapticLandmarks.h"
 
-#include "GeodesicPath.h"
+#include "haptics/Scene/GeodesicPath.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"

@@ -9,8 +9,8 @@
  *
  * @sa vtkHapticScene vtkHapticProbe
  */
-#ifndef vtkHapticLandmarks_h
-#define vtkHapticLandmarks_h
+#ifndef Haptics_vtkHapticLandmarks_h
+#define Haptics_vtkHapticLandmarks_h
 
 #include "vtkHapticsInteractorsModule.h"
 #include "vtkNew.h"

@@ -13,8 +13,8 @@
  *
  * @sa vtkHapticScene vtkHapticLandmarks
  */
-#ifndef vtkHapticProbe_h
-#define vtkHapticProbe_h
+#ifndef Haptics_vtkHapticProbe_h
+#define Haptics_vtkHapticProbe_h
 
 #include "vtkHapticsInteractorsModule.h"
 #include "vtkNew.h"
@@ -23,8 +23,8 @@
 #include <string>
 
 #ifndef __VTK_WRAP__
-#include "RigidPose.h"       // for haptics::RigidPose
-#include "TriangleSurface.h" // for haptics::TriangleSurface
+#include "haptics/Math/RigidPose.h"          // for haptics::RigidPose
+#include "haptics/Surface/TriangleSurface.h" // for haptics::TriangleSurface
 
 #include <memory>
 #endif

@@ -17,8 +17,8 @@
  *
  * @sa vtkHapticServo haptics::ForceGuard haptics::StiffnessLimit haptics::PassivityController
  */
-#ifndef vtkHapticSafety_h
-#define vtkHapticSafety_h
+#ifndef Haptics_vtkHapticSafety_h
+#define Haptics_vtkHapticSafety_h
 
 #include "vtkHapticsInteractorsModule.h"
 #include "vtkObject.h"

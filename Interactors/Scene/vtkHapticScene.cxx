@@ -1,6 +1,6 @@
 #include "vtkHapticScene.h"
 
-#include "HapticSceneInternals.h"
+#include "haptics/Scene/HapticSceneInternals.h"
 #include "vtkActor.h"
 #include "vtkGodObjectActor.h"
 #include "vtkHapticDevice.h"

@@ -22,8 +22,8 @@
  *
  * @sa vtkHapticServo vtkHapticDevice vtkGodObjectFilter vtkGodObjectActor vtkInteractorStyleHaptic
  */
-#ifndef vtkHapticScene_h
-#define vtkHapticScene_h
+#ifndef Haptics_vtkHapticScene_h
+#define Haptics_vtkHapticScene_h
 
 #include "vtkCommand.h"
 #include "vtkHapticsInteractorsModule.h"

@@ -1,7 +1,7 @@
 // What the hand of a vtkHapticScene carries.
 #include "vtkHapticScene.h"
 
-#include "HapticSceneInternals.h"
+#include "haptics/Scene/HapticSceneInternals.h"
 #include "vtkActor.h"
 #include "vtkHapticServo.h"
 

@@ -1,7 +1,7 @@
 // What the hand of a vtkHapticScene does beside touching: landmarks, clutch.
 #include "vtkHapticScene.h"
 
-#include "HapticSceneInternals.h"
+#include "haptics/Scene/HapticSceneInternals.h"
 #include "vtkHapticDevice.h"
 #include "vtkHapticLandmarks.h"
 #include "vtkHapticProbe.h"

@@ -1,7 +1,7 @@
 // What a vtkHapticScene shows: the hand in the picture, the read-out, the probe.
 #include "vtkHapticScene.h"
 
-#include "HapticSceneInternals.h"
+#include "haptics/Scene/HapticSceneInternals.h"
 #include "vtkGodObjectActor.h"
 #include "vtkHapticLandmarks.h"
 #include "vtkHapticOverlay.h"

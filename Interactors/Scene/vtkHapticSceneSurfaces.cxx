@@ -1,7 +1,7 @@
 // What a vtkHapticScene touches.
 #include "vtkHapticScene.h"
 
-#include "HapticSceneInternals.h"
+#include "haptics/Scene/HapticSceneInternals.h"
 #include "vtkActor.h"
 #include "vtkAlgorithmOutput.h"
 #include "vtkAssembly.h"

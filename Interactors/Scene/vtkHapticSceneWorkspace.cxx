@@ -1,9 +1,9 @@
 // How the device's workspace lies over what a vtkHapticScene touches.
 #include "vtkHapticScene.h"
 
-#include "HapticSceneInternals.h"
-#include "WorkspaceFit.h"
-#include "WorkspaceTransform.h"
+#include "haptics/Math/WorkspaceTransform.h"
+#include "haptics/Scene/HapticSceneInternals.h"
+#include "haptics/Scene/WorkspaceFit.h"
 #include "vtkBoundingBox.h"
 #include "vtkCamera.h"
 #include "vtkHapticDevice.h"

@@ -1,8 +1,8 @@
 #include "vtkHapticServo.h"
 
-#include "HapticServoInternals.h"
+#include "haptics/Scene/HapticServoInternals.h"
 
-#include "StiffnessLimit.h"
+#include "haptics/Servo/StiffnessLimit.h"
 #include "vtkHapticSafety.h"
 
 #include "vtkCommand.h"

@@ -26,8 +26,8 @@
  *
  * @sa vtkHapticScene vtkHapticDevice haptics::ServoCycle haptics::ServoLoop
  */
-#ifndef vtkHapticServo_h
-#define vtkHapticServo_h
+#ifndef Haptics_vtkHapticServo_h
+#define Haptics_vtkHapticServo_h
 
 #include "vtkCommand.h"
 #include "vtkHapticsInteractorsModule.h"

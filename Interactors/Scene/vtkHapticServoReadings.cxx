@@ -1,9 +1,9 @@
 // What vtkHapticServo tells: its latest tick, its statistics, its print-out.
 #include "vtkHapticServo.h"
 
-#include "SafetySettings.h"
-#include "ServoStatistics.h"
-#include "TickRecord.h"
+#include "haptics/Servo/SafetySettings.h"
+#include "haptics/Servo/ServoStatistics.h"
+#include "haptics/Tick/TickRecord.h"
 #include "vtkHapticSafety.h"
 
 #include "vtkHapticDevice.h"

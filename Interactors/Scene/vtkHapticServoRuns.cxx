@@ -1,7 +1,7 @@
 // How vtkHapticServo starts, steps, stops and records.
-#include "HapticServoInternals.h"
-#include "MonotonicClock.h"
-#include "RealTimePriority.h"
+#include "haptics/Scene/HapticServoInternals.h"
+#include "haptics/Servo/MonotonicClock.h"
+#include "haptics/Servo/RealTimePriority.h"
 #include "vtkHapticSafety.h"
 
 #include "vtkHapticDevice.h"

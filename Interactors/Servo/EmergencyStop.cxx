@@ -1,7 +1,7 @@
-#include "EmergencyStop.h"
+#include "haptics/Servo/EmergencyStop.h"
 
-#include "EndingSignals.h"
-#include "ServoCycle.h"
+#include "haptics/Devices/EndingSignals.h"
+#include "haptics/Servo/ServoCycle.h"
 
 #include <array>
 #include <atomic>

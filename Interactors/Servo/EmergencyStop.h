@@ -1,7 +1,7 @@
-#ifndef EmergencyStop_h
-#define EmergencyStop_h
+#ifndef Haptics_EmergencyStop_h
+#define Haptics_EmergencyStop_h
 
-#include "vtkHapticsInteractorsModule.h"
+#include "vtkHapticsServoModule.h"
 
 #include <cstdint>
 
@@ -22,7 +22,7 @@ class ServoCycle;
 /// A window ends in order at SIGINT (Ctrl-C): while something calls CountInterrupts() again and
 /// again, a process that has no handler of its own for SIGINT does not die of it. The next SIGINT
 /// does end it where that one was not heard.
-class VTKHAPTICSINTERACTORS_EXPORT EmergencyStop
+class VTKHAPTICSSERVO_EXPORT EmergencyStop
 {
 public:
   /// Takes the process's signals, exit and terminate. To be called at each start of a servo, since

@@ -1,4 +1,4 @@
-#include "ForceGuard.h"
+#include "haptics/Servo/ForceGuard.h"
 
 #include <algorithm>
 #include <cmath>
@@ -55,7 +55,7 @@ Vec3 ForceGuard::Force(const Contact& contact, double since, const ForceModel& m
 {
   // A device may have a time of its own, and report anything.
   const double period = std::isfinite(since) ? std::max(0.0, since) : 0.0;
-  const bool isPlain = contact.Felt.IsPlain;
+  const bool isPlain = contact.Material.IsPlain;
   const bool isTouching = contact.IsTouching();
   // Against the surface, which may move.
   this->Step =
@@ -112,16 +112,16 @@ Vec3 ForceGuard::Spring(const Contact& contact, double period, const ForceModel&
   const SafetySettings& settings) noexcept
 {
   const double plain = this->Stiffener.Update(period, model.Stiffness, settings);
-  FeelLimits limits;
+  MaterialLimits limits;
   limits.MaximumForce = model.MaximumForce;
   limits.Damping = settings.DeviceDamping > 0.0
     ? std::max(0.0, LargestShareOfDamping * settings.DeviceDamping - settings.ContactDamping)
     : LargestPassivityDamping;
-  const double damping = std::min(contact.Felt.Damping, limits.Damping);
+  const double damping = std::min(contact.Material.Damping, limits.Damping);
   limits.Stiffness = std::min(model.LargestStiffness, this->Stiffener.Allowed(settings, damping));
   const Vec3 force = this->Law.Update(contact, period, plain, limits);
-  const bool isLimited =
-    contact.Felt.IsPlain || !contact.IsTouching() ? plain < model.Stiffness : this->Law.IsLimited();
+  const bool isLimited = contact.Material.IsPlain || !contact.IsTouching() ? plain < model.Stiffness
+                                                                           : this->Law.IsLimited();
   this->Limits = (isLimited ? StiffnessLimited : 0u) |
     (this->Law.IsHeldBack() ? EnergyHeldBack : 0u) | (this->Law.IsClamped() ? ForceClamped : 0u);
   return force;
@@ -186,13 +186,13 @@ Vec3 ForceGuard::LimitSlew(const Vec3& force, const Contact& contact, double per
       request.Change = request.Stiffness * Length(contact.Carried) + hardened * depth;
     }
     // Surfaces with properties pay for theirs themselves.
-    else if (contact.Felt.IsPlain && this->WasPlain)
+    else if (contact.Material.IsPlain && this->WasPlain)
     {
       request.Hardening = hardened;
     }
   }
   this->Stiffness = depth > 0.0 ? request.Stiffness : 0.0;
-  this->WasPlain = contact.Felt.IsPlain;
+  this->WasPlain = contact.Material.IsPlain;
 
   const Vec3 limited = this->Slew.Limit(request);
   if (this->Slew.IsLimiting())

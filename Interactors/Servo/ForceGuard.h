@@ -1,14 +1,14 @@
-#ifndef ForceGuard_h
-#define ForceGuard_h
+#ifndef Haptics_ForceGuard_h
+#define Haptics_ForceGuard_h
 
-#include "ForceModel.h"
-#include "PassivityController.h"
-#include "SafetySettings.h"
-#include "SlewLimiter.h"
-#include "StiffnessLimit.h"
-#include "SurfaceForce.h"
-#include "Vec3.h"
-#include "vtkHapticsInteractorsModule.h"
+#include "haptics/Material/ForceModel.h"
+#include "haptics/Material/SurfaceForce.h"
+#include "haptics/Math/Vec3.h"
+#include "haptics/Servo/PassivityController.h"
+#include "haptics/Servo/SafetySettings.h"
+#include "haptics/Servo/SlewLimiter.h"
+#include "haptics/Servo/StiffnessLimit.h"
+#include "vtkHapticsServoModule.h"
 
 #include <cstdint>
 
@@ -26,7 +26,7 @@ namespace haptics
 ///             ________
 ///         0 ( o------> )  last force
 ///             --------
-class VTKHAPTICSINTERACTORS_EXPORT ForceGuard
+class VTKHAPTICSSERVO_EXPORT ForceGuard
 {
 public:
   /// Readies a new run; it begins with a soft start.

@@ -1,4 +1,4 @@
-#include "GodObjectExchange.h"
+#include "haptics/Servo/GodObjectExchange.h"
 
 #include <utility>
 #include <vector>

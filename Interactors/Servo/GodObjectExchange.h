@@ -1,9 +1,9 @@
-#ifndef GodObjectExchange_h
-#define GodObjectExchange_h
+#ifndef Haptics_GodObjectExchange_h
+#define Haptics_GodObjectExchange_h
 
-#include "GodObject.h"
-#include "RingBuffer.h"
-#include "vtkHapticsInteractorsModule.h"
+#include "haptics/Contact/GodObject.h"
+#include "haptics/Servo/RingBuffer.h"
+#include "vtkHapticsServoModule.h"
 
 #include <atomic>
 #include <cstdint>
@@ -25,7 +25,7 @@ struct NumberedGodObject
 ///                 <--Collect--  [ retired  ]  <---------  (the one before)
 ///
 /// God-objects are made and deleted on the GUI thread alone.
-class VTKHAPTICSINTERACTORS_EXPORT GodObjectExchange
+class VTKHAPTICSSERVO_EXPORT GodObjectExchange
 {
 public:
   GodObjectExchange();

@@ -1,5 +1,5 @@
-#ifndef LogHistogram_h
-#define LogHistogram_h
+#ifndef Haptics_LogHistogram_h
+#define Haptics_LogHistogram_h
 
 #include <array>
 #include <atomic>

@@ -1,4 +1,4 @@
-#include "MonotonicClock.h"
+#include "haptics/Servo/MonotonicClock.h"
 
 #ifdef __linux__
 #include <cerrno>

@@ -1,5 +1,5 @@
-#ifndef MonotonicClock_h
-#define MonotonicClock_h
+#ifndef Haptics_MonotonicClock_h
+#define Haptics_MonotonicClock_h
 
 #include <cstdint>
 

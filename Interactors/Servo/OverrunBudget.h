@@ -1,5 +1,5 @@
-#ifndef OverrunBudget_h
-#define OverrunBudget_h
+#ifndef Haptics_OverrunBudget_h
+#define Haptics_OverrunBudget_h
 
 #include <algorithm>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "PassivityController.h"
+#include "haptics/Servo/PassivityController.h"
 
 #include <algorithm>
 

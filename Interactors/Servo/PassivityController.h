@@ -1,8 +1,8 @@
-#ifndef PassivityController_h
-#define PassivityController_h
+#ifndef Haptics_PassivityController_h
+#define Haptics_PassivityController_h
 
-#include "Vec3.h"
-#include "vtkHapticsInteractorsModule.h"
+#include "haptics/Math/Vec3.h"
+#include "vtkHapticsServoModule.h"
 
 namespace haptics
 {
@@ -19,7 +19,7 @@ namespace haptics
 ///
 /// A balance that is positive where the hand lets go of the surface is forgotten: it is no credit
 /// for the next contact. Device frame. Servo thread.
-class VTKHAPTICSINTERACTORS_EXPORT PassivityController
+class VTKHAPTICSSERVO_EXPORT PassivityController
 {
 public:
   void Restart() noexcept;

@@ -1,4 +1,4 @@
-#include "RealTimePriority.h"
+#include "haptics/Servo/RealTimePriority.h"
 
 #include <cerrno>
 #include <system_error>

@@ -1,5 +1,5 @@
-#ifndef RealTimePriority_h
-#define RealTimePriority_h
+#ifndef Haptics_RealTimePriority_h
+#define Haptics_RealTimePriority_h
 
 #include <string>
 

@@ -1,6 +1,6 @@
-#include "RecordingChannel.h"
+#include "haptics/Servo/RecordingChannel.h"
 
-#include "EndingSignals.h"
+#include "haptics/Devices/EndingSignals.h"
 
 #include <chrono>
 #include <system_error>

@@ -1,11 +1,11 @@
-#ifndef RecordingChannel_h
-#define RecordingChannel_h
+#ifndef Haptics_RecordingChannel_h
+#define Haptics_RecordingChannel_h
 
-#include "DeviceChannel.h"
-#include "DeviceRecording.h"
-#include "ProcessOwner.h"
-#include "RingBuffer.h"
-#include "vtkHapticsInteractorsModule.h"
+#include "haptics/Devices/DeviceChannel.h"
+#include "haptics/Devices/ProcessOwner.h"
+#include "haptics/Devices/Recorded/DeviceRecording.h"
+#include "haptics/Servo/RingBuffer.h"
+#include "vtkHapticsServoModule.h"
 
 #include <atomic>
 #include <condition_variable>
@@ -26,7 +26,7 @@ namespace haptics
 ///
 /// The servo thread never writes a file and never waits. Ticks that come while the ring is full
 /// (a disk that takes no data for 16 s at 1 kHz) are counted and left out.
-class VTKHAPTICSINTERACTORS_EXPORT RecordingChannel : public DeviceChannel
+class VTKHAPTICSSERVO_EXPORT RecordingChannel : public DeviceChannel
 {
 public:
   explicit RecordingChannel(std::shared_ptr<DeviceChannel> device);

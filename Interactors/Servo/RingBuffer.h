@@ -1,5 +1,5 @@
-#ifndef RingBuffer_h
-#define RingBuffer_h
+#ifndef Haptics_RingBuffer_h
+#define Haptics_RingBuffer_h
 
 #include <atomic>
 #include <cstddef>

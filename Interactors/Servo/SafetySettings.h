@@ -1,5 +1,5 @@
-#ifndef SafetySettings_h
-#define SafetySettings_h
+#ifndef Haptics_SafetySettings_h
+#define Haptics_SafetySettings_h
 
 #include <cstdint>
 

@@ -1,6 +1,6 @@
-#include "ServoCycle.h"
+#include "haptics/Servo/ServoCycle.h"
 
-#include "DeviceChannel.h"
+#include "haptics/Devices/DeviceChannel.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,15 +1,15 @@
-#ifndef ServoCycle_h
-#define ServoCycle_h
+#ifndef Haptics_ServoCycle_h
+#define Haptics_ServoCycle_h
 
-#include "ContactTick.h"
-#include "ForceGuard.h"
-#include "ForceModel.h"
-#include "GodObjectExchange.h"
-#include "LatestValue.h"
-#include "RingBuffer.h"
-#include "TickRecord.h"
-#include "WorkspaceTransform.h"
-#include "vtkHapticsInteractorsModule.h"
+#include "haptics/Devices/LatestValue.h"
+#include "haptics/Material/ForceModel.h"
+#include "haptics/Math/WorkspaceTransform.h"
+#include "haptics/Servo/ForceGuard.h"
+#include "haptics/Servo/GodObjectExchange.h"
+#include "haptics/Servo/RingBuffer.h"
+#include "haptics/Tick/ContactTick.h"
+#include "haptics/Tick/TickRecord.h"
+#include "vtkHapticsServoModule.h"
 
 #include <atomic>
 #include <cstdint>
@@ -50,7 +50,7 @@ struct ServoSettings
 /// The first group of methods is the GUI thread's, the second the servo thread's; both may run at
 /// once, and none of the second allocates, locks or logs. Any fault asks for zero force in the same
 /// tick.
-class VTKHAPTICSINTERACTORS_EXPORT ServoCycle
+class VTKHAPTICSSERVO_EXPORT ServoCycle
 {
 public:
   /// Keeps up to `records` ticks that were not yet drained.

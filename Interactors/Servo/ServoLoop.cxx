@@ -1,12 +1,12 @@
-#include "ServoLoop.h"
+#include "haptics/Servo/ServoLoop.h"
 
-#include "DeviceChannel.h"
-#include "EmergencyStop.h"
-#include "EndingSignals.h"
-#include "MonotonicClock.h"
-#include "OverrunBudget.h"
-#include "RealTimePriority.h"
-#include "Watchdog.h"
+#include "haptics/Devices/DeviceChannel.h"
+#include "haptics/Devices/EndingSignals.h"
+#include "haptics/Servo/EmergencyStop.h"
+#include "haptics/Servo/MonotonicClock.h"
+#include "haptics/Servo/OverrunBudget.h"
+#include "haptics/Servo/RealTimePriority.h"
+#include "haptics/Servo/Watchdog.h"
 
 #include <algorithm>
 #include <future>

@@ -1,10 +1,10 @@
-#ifndef ServoLoop_h
-#define ServoLoop_h
+#ifndef Haptics_ServoLoop_h
+#define Haptics_ServoLoop_h
 
-#include "ProcessOwner.h"
-#include "ServoCycle.h"
-#include "ServoStatistics.h"
-#include "vtkHapticsInteractorsModule.h"
+#include "haptics/Devices/ProcessOwner.h"
+#include "haptics/Servo/ServoCycle.h"
+#include "haptics/Servo/ServoStatistics.h"
+#include "vtkHapticsServoModule.h"
 
 #include <atomic>
 #include <cstdint>
@@ -46,7 +46,7 @@ struct ServoTiming
 /// A device that sets the pace (DeviceChannel::SetsPace) is waited for instead of the clock; the
 /// deadlines then are what its ticks are counted against, and one of them may be early by a period.
 /// GUI thread.
-class VTKHAPTICSINTERACTORS_EXPORT ServoLoop
+class VTKHAPTICSSERVO_EXPORT ServoLoop
 {
 public:
   /// Both must outlive the loop.

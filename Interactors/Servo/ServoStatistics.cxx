@@ -1,4 +1,4 @@
-#include "ServoStatistics.h"
+#include "haptics/Servo/ServoStatistics.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,8 +1,8 @@
-#ifndef ServoStatistics_h
-#define ServoStatistics_h
+#ifndef Haptics_ServoStatistics_h
+#define Haptics_ServoStatistics_h
 
-#include "LogHistogram.h"
-#include "vtkHapticsInteractorsModule.h"
+#include "haptics/Servo/LogHistogram.h"
+#include "vtkHapticsServoModule.h"
 
 #include <atomic>
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace haptics
 /// A period T is the time from the start of a tick to the start of the next. What a period does to
 /// stability is not its mean: a spring K in a device of damping b stays passive for
 /// K <= 2 b E[T] / E[T^2], so PeriodRatio is the "T" to design with, and MaximumPeriod the worst.
-struct VTKHAPTICSINTERACTORS_EXPORT ServoReport
+struct VTKHAPTICSSERVO_EXPORT ServoReport
 {
   std::uint64_t Ticks = 0;
   std::uint64_t MissedTicks = 0; ///< deadlines that passed without a tick
@@ -32,12 +32,12 @@ struct VTKHAPTICSINTERACTORS_EXPORT ServoReport
 
 /// The duration [s] that a share of `fraction` (0 to 1) of the counts does not exceed, rounded up
 /// to its bin's end, at most 3.2 % more; 0 where nothing was counted. Any thread.
-VTKHAPTICSINTERACTORS_EXPORT double Quantile(const LogHistogram::Counts& counts, double fraction);
+VTKHAPTICSSERVO_EXPORT double Quantile(const LogHistogram::Counts& counts, double fraction);
 
 /// @brief Gathers the regularity of a servo, wait-free, while any thread looks on.
 ///
 /// Each number in a report is exact; in one taken while the servo runs they may be a tick apart.
-class VTKHAPTICSINTERACTORS_EXPORT ServoStatistics
+class VTKHAPTICSSERVO_EXPORT ServoStatistics
 {
 public:
   /// Counts a tick: how long after the start of the one before it started, and how long it worked

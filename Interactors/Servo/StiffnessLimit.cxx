@@ -1,4 +1,4 @@
-#include "StiffnessLimit.h"
+#include "haptics/Servo/StiffnessLimit.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,8 +1,8 @@
-#ifndef StiffnessLimit_h
-#define StiffnessLimit_h
+#ifndef Haptics_StiffnessLimit_h
+#define Haptics_StiffnessLimit_h
 
-#include "SafetySettings.h"
-#include "vtkHapticsInteractorsModule.h"
+#include "haptics/Servo/SafetySettings.h"
+#include "vtkHapticsServoModule.h"
 
 namespace haptics
 {
@@ -15,7 +15,7 @@ namespace haptics
 ///
 /// A stiffness falls at once. It rises slowly, over the soft start's time: raising the stiffness
 /// under a hand that presses d deep puts in dK d^2 / 2 of energy.
-class VTKHAPTICSINTERACTORS_EXPORT StiffnessLimit
+class VTKHAPTICSSERVO_EXPORT StiffnessLimit
 {
 public:
   /// Forgets all periods: as if all had been `nominalPeriod` [s].

@@ -1,9 +1,9 @@
-#include "Watchdog.h"
+#include "haptics/Servo/Watchdog.h"
 
-#include "DeviceChannel.h"
-#include "EmergencyStop.h"
-#include "EndingSignals.h"
-#include "RealTimePriority.h"
+#include "haptics/Devices/DeviceChannel.h"
+#include "haptics/Devices/EndingSignals.h"
+#include "haptics/Servo/EmergencyStop.h"
+#include "haptics/Servo/RealTimePriority.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,7 +1,7 @@
-#ifndef Watchdog_h
-#define Watchdog_h
+#ifndef Haptics_Watchdog_h
+#define Haptics_Watchdog_h
 
-#include "vtkHapticsInteractorsModule.h"
+#include "vtkHapticsServoModule.h"
 
 #include <atomic>
 #include <condition_variable>
@@ -18,8 +18,9 @@ class DeviceChannel;
 ///
 /// The servo thread shows with Feed() that it lives. Where it has not for the time limit, a thread
 /// of the watchdog's own halts the channel: no force is left in the hand although the servo cannot
-/// write. It also keeps the process's signals, see EmergencyStop. The servo finds out with TakeBite() once it goes on.
-class VTKHAPTICSINTERACTORS_EXPORT Watchdog
+/// write. It also keeps the process's signals, see EmergencyStop. The servo finds out with
+/// TakeBite() once it goes on.
+class VTKHAPTICSSERVO_EXPORT Watchdog
 {
 public:
   /// Watches from now on; `limit` [ns], > 0. Throws std::system_error where there is no thread.

@@ -1,5 +1,5 @@
-#ifndef ForceColor_h
-#define ForceColor_h
+#ifndef Haptics_ForceColor_h
+#define Haptics_ForceColor_h
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
-#ifndef TypedKey_h
-#define TypedKey_h
+#ifndef Haptics_TypedKey_h
+#define Haptics_TypedKey_h
 
 #include <cstring>
 

@@ -1,7 +1,7 @@
 #include "vtkGodObjectActor.h"
 
-#include "ForceColor.h"
-#include "NumberSetting.h"
+#include "haptics/Filters/NumberSetting.h"
+#include "haptics/View/ForceColor.h"
 #include "vtkActor.h"
 #include "vtkCamera.h"
 #include "vtkConeSource.h"

@@ -25,8 +25,8 @@
  *
  * @sa vtkHapticScene
  */
-#ifndef vtkGodObjectActor_h
-#define vtkGodObjectActor_h
+#ifndef Haptics_vtkGodObjectActor_h
+#define Haptics_vtkGodObjectActor_h
 
 #include "vtkHapticsInteractorsModule.h"
 #include "vtkNew.h"

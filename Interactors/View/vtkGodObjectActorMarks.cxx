@@ -2,7 +2,7 @@
 // landmarks.
 #include "vtkGodObjectActor.h"
 
-#include "ForceColor.h"
+#include "haptics/View/ForceColor.h"
 #include "vtkActor.h"
 #include "vtkCamera.h"
 #include "vtkCellArray.h"

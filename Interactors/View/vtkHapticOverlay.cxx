@@ -1,6 +1,6 @@
 #include "vtkHapticOverlay.h"
 
-#include "ForceColor.h"
+#include "haptics/View/ForceColor.h"
 #include "vtkActor2D.h"
 #include "vtkCellArray.h"
 #include "vtkObjectFactory.h"

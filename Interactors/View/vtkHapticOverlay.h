@@ -11,8 +11,8 @@
  *
  * @sa vtkHapticScene vtkGodObjectActor
  */
-#ifndef vtkHapticOverlay_h
-#define vtkHapticOverlay_h
+#ifndef Haptics_vtkHapticOverlay_h
+#define Haptics_vtkHapticOverlay_h
 
 #include "vtkHapticsInteractorsModule.h"
 #include "vtkNew.h"

@@ -1,7 +1,7 @@
 #include "vtkInteractorStyleHaptic.h"
 
-#include "EmergencyStop.h"
-#include "TypedKey.h"
+#include "haptics/Servo/EmergencyStop.h"
+#include "haptics/View/TypedKey.h"
 #include "vtkCallbackCommand.h"
 #include "vtkCamera.h"
 #include "vtkCommand.h"

@@ -42,8 +42,8 @@
  *
  * @sa vtkHapticScene
  */
-#ifndef vtkInteractorStyleHaptic_h
-#define vtkInteractorStyleHaptic_h
+#ifndef Haptics_vtkInteractorStyleHaptic_h
+#define Haptics_vtkInteractorStyleHaptic_h
 
 #include "vtkHapticsInteractorsModule.h"
 #include "vtkInteractorStyleTrackballCamera.h"

@@ -1,7 +1,7 @@
 #include "vtkMouseHapticDevice.h"
 
-#include "LatestValue.h"
-#include "MonitoredChannel.h"
+#include "haptics/Devices/LatestValue.h"
+#include "haptics/Devices/MonitoredChannel.h"
 #include "vtkCallbackCommand.h"
 #include "vtkCamera.h"
 #include "vtkCommand.h"

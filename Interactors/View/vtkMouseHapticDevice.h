@@ -30,8 +30,8 @@
  *
  * @sa vtkHapticScene vtkHapticOverlay vtkInteractorStyleHaptic
  */
-#ifndef vtkMouseHapticDevice_h
-#define vtkMouseHapticDevice_h
+#ifndef Haptics_vtkMouseHapticDevice_h
+#define Haptics_vtkMouseHapticDevice_h
 
 #include "vtkHapticDevice.h"
 #include "vtkHapticsInteractorsModule.h"

@@ -1,5 +1,5 @@
-#ifndef LandmarksSource_h
-#define LandmarksSource_h
+#ifndef Haptics_LandmarksSource_h
+#define Haptics_LandmarksSource_h
 
 class vtkPolyData;
 class vtkSMProxy;

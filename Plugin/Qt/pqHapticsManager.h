@@ -17,8 +17,8 @@
  * Errors: what a user asked for and cannot have is told in a message box; what goes wrong later is
  * in ParaView's output window and in the panel.
  */
-#ifndef pqHapticsManager_h
-#define pqHapticsManager_h
+#ifndef Haptics_pqHapticsManager_h
+#define Haptics_pqHapticsManager_h
 
 #include "vtkWeakPointer.h"
 

@@ -8,8 +8,8 @@
  *
  * @sa pqHapticsManager pqHapticsToolBar
  */
-#ifndef pqHapticsPanel_h
-#define pqHapticsPanel_h
+#ifndef Haptics_pqHapticsPanel_h
+#define Haptics_pqHapticsPanel_h
 
 #include <QDockWidget>
 #include <QElapsedTimer>

@@ -8,8 +8,8 @@
  *
  * @sa pqHapticsManager pqHapticsPanel
  */
-#ifndef pqHapticsToolBar_h
-#define pqHapticsToolBar_h
+#ifndef Haptics_pqHapticsToolBar_h
+#define Haptics_pqHapticsToolBar_h
 
 #include <QToolBar>
 

@@ -1,5 +1,5 @@
-#ifndef HapticDeviceChoice_h
-#define HapticDeviceChoice_h
+#ifndef Haptics_HapticDeviceChoice_h
+#define Haptics_HapticDeviceChoice_h
 
 #include "vtkHapticDevice.h"
 #include "vtkPolyData.h"

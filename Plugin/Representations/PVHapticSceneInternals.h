@@ -1,5 +1,5 @@
-#ifndef PVHapticSceneInternals_h
-#define PVHapticSceneInternals_h
+#ifndef Haptics_PVHapticSceneInternals_h
+#define Haptics_PVHapticSceneInternals_h
 
 #include "HapticDeviceChoice.h"
 #include "vtkActor.h"

@@ -14,8 +14,8 @@
  *
  * @sa vtkPVHapticScene
  */
-#ifndef vtkHapticRecordSource_h
-#define vtkHapticRecordSource_h
+#ifndef Haptics_vtkHapticRecordSource_h
+#define Haptics_vtkHapticRecordSource_h
 
 #include "vtkHapticsRepresentationsModule.h"
 #include "vtkPolyDataAlgorithm.h"

@@ -18,8 +18,8 @@
  *
  * @sa vtkPVHapticScene
  */
-#ifndef vtkHapticSurfaceRepresentation_h
-#define vtkHapticSurfaceRepresentation_h
+#ifndef Haptics_vtkHapticSurfaceRepresentation_h
+#define Haptics_vtkHapticSurfaceRepresentation_h
 
 #include "vtkGeometryRepresentationWithFaces.h"
 #include "vtkHapticsRepresentationsModule.h"

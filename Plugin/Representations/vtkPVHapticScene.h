@@ -20,8 +20,8 @@
  *
  * @sa vtkHapticScene vtkHapticSurfaceRepresentation
  */
-#ifndef vtkPVHapticScene_h
-#define vtkPVHapticScene_h
+#ifndef Haptics_vtkPVHapticScene_h
+#define Haptics_vtkPVHapticScene_h
 
 #include "vtkHapticsRepresentationsModule.h"
 #include "vtkObject.h"

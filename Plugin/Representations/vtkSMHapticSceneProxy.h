@@ -10,8 +10,8 @@
  *
  * @sa vtkPVHapticScene
  */
-#ifndef vtkSMHapticSceneProxy_h
-#define vtkSMHapticSceneProxy_h
+#ifndef Haptics_vtkSMHapticSceneProxy_h
+#define Haptics_vtkSMHapticSceneProxy_h
 
 #include "vtkHapticsRepresentationsModule.h"
 #include "vtkSMProxy.h"

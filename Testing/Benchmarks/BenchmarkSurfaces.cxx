@@ -1,9 +1,9 @@
 #include "BenchmarkSurfaces.h"
 
 #include "AnalyticSurfaces.h"
-#include "GodObject.h"
 #include "MeshToPolyData.h"
 #include "ProfileSurfaces.h"
+#include "haptics/Contact/GodObject.h"
 
 #include "vtkGodObjectFilter.h"
 #include "vtkNew.h"

@@ -1,8 +1,8 @@
-#ifndef BenchmarkSurfaces_h
-#define BenchmarkSurfaces_h
+#ifndef Haptics_BenchmarkSurfaces_h
+#define Haptics_BenchmarkSurfaces_h
 
 #include "HipPath.h"
-#include "TriangleSurface.h"
+#include "haptics/Surface/TriangleSurface.h"
 
 #include <functional>
 #include <string>

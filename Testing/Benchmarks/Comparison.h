@@ -1,8 +1,8 @@
-#ifndef Comparison_h
-#define Comparison_h
+#ifndef Haptics_Comparison_h
+#define Haptics_Comparison_h
 
 #include "ContactMethod.h"
-#include "TriangleSurface.h"
+#include "haptics/Surface/TriangleSurface.h"
 
 #include <functional>
 #include <memory>

@@ -3,8 +3,8 @@
 // Times of single ticks are taken with the clock inside the loop, as their high quantiles are what
 // a servo needs: the counters mean_us, p50_us, p99_us and p999_us. The clock adds about 0.03 us.
 #include "AnalyticSurfaces.h"
-#include "FeelTools.h"
-#include "GodObject.h"
+#include "MaterialTools.h"
+#include "haptics/Contact/GodObject.h"
 
 #include "vtkCellArray.h"
 #include "vtkGodObjectFilter.h"

@@ -1,9 +1,9 @@
-#ifndef MethodList_h
-#define MethodList_h
+#ifndef Haptics_MethodList_h
+#define Haptics_MethodList_h
 
 #include "CertifiedMethod.h"
 #include "ContactMethod.h"
-#include "TriangleSurface.h"
+#include "haptics/Surface/TriangleSurface.h"
 
 #include <functional>
 #include <string>

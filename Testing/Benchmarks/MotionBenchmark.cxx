@@ -4,9 +4,9 @@
 // hands it over, the other ticks at 1 kHz and strokes the surface. Prints CSV, a line a size. Needs
 // two cores for itself; `--help` tells the options.
 #include "AnalyticSurfaces.h"
-#include "GodObjectExchange.h"
-#include "RealTimePriority.h"
-#include "SurfaceDeformer.h"
+#include "haptics/Servo/GodObjectExchange.h"
+#include "haptics/Servo/RealTimePriority.h"
+#include "haptics/Surface/SurfaceDeformer.h"
 
 #include <algorithm>
 #include <atomic>

@@ -1,7 +1,7 @@
-#ifndef AnalyticSurfaces_h
-#define AnalyticSurfaces_h
+#ifndef Haptics_AnalyticSurfaces_h
+#define Haptics_AnalyticSurfaces_h
 
-#include "TriangleSurface.h"
+#include "haptics/Surface/TriangleSurface.h"
 
 #include <memory>
 

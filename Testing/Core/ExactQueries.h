@@ -1,7 +1,7 @@
-#ifndef ExactQueries_h
-#define ExactQueries_h
+#ifndef Haptics_ExactQueries_h
+#define Haptics_ExactQueries_h
 
-#include "TriangleSurface.h"
+#include "haptics/Surface/TriangleSurface.h"
 
 namespace haptics::testing
 {

@@ -1,7 +1,7 @@
-#ifndef ExactSigns_h
-#define ExactSigns_h
+#ifndef Haptics_ExactSigns_h
+#define Haptics_ExactSigns_h
 
-#include "Vec3.h"
+#include "haptics/Math/Vec3.h"
 
 namespace haptics::testing
 {

@@ -1,7 +1,7 @@
-#ifndef HipPath_h
-#define HipPath_h
+#ifndef Haptics_HipPath_h
+#define Haptics_HipPath_h
 
-#include "Vec3.h"
+#include "haptics/Math/Vec3.h"
 
 #include <random>
 #include <string>

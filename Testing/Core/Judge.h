@@ -1,7 +1,7 @@
-#ifndef Judge_h
-#define Judge_h
+#ifndef Haptics_Judge_h
+#define Haptics_Judge_h
 
-#include "TriangleSurface.h"
+#include "haptics/Surface/TriangleSurface.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,10 +1,10 @@
-#ifndef JudgedSoak_h
-#define JudgedSoak_h
+#ifndef Haptics_JudgedSoak_h
+#define Haptics_JudgedSoak_h
 
 #include "SoakOptions.h"
 #include "SurfacePath.h"
-#include "TouchedSurface.h"
 #include "Trial.h"
+#include "haptics/Contact/TouchedSurface.h"
 
 #include <map>
 #include <string>

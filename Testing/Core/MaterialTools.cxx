@@ -1,4 +1,4 @@
-#include "FeelTools.h"
+#include "MaterialTools.h"
 
 #include "AnalyticSurfaces.h"
 

@@ -1,9 +1,9 @@
-#ifndef FeelTools_h
-#define FeelTools_h
+#ifndef Haptics_MaterialTools_h
+#define Haptics_MaterialTools_h
 
-#include "GodObject.h"
-#include "SurfaceForce.h"
-#include "SurfaceProperties.h"
+#include "haptics/Contact/GodObject.h"
+#include "haptics/Material/SurfaceForce.h"
+#include "haptics/Material/SurfaceProperties.h"
 
 #include <memory>
 
@@ -48,7 +48,7 @@ public:
 
   GodObject God;
   SurfaceForce Force;
-  FeelLimits Limits;
+  MaterialLimits Limits;
   double PlainStiffness;
   /// What the hand has got out of the servo [J], with a force that changes evenly over each tick.
   double EnergyOut = 0.0;

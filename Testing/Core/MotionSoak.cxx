@@ -4,11 +4,11 @@
 // it for long.
 #include "AnalyticSurfaces.h"
 #include "ExactQueries.h"
-#include "GodObject.h"
 #include "HipPath.h"
 #include "Judge.h"
 #include "SoakOptions.h"
-#include "SurfaceDeformer.h"
+#include "haptics/Contact/GodObject.h"
+#include "haptics/Surface/SurfaceDeformer.h"
 
 #include <algorithm>
 #include <cmath>

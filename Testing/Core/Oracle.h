@@ -1,7 +1,7 @@
-#ifndef Oracle_h
-#define Oracle_h
+#ifndef Haptics_Oracle_h
+#define Haptics_Oracle_h
 
-#include "GodObject.h"
+#include "haptics/Contact/GodObject.h"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
-#ifndef ProfileSurfaces_h
-#define ProfileSurfaces_h
+#ifndef Haptics_ProfileSurfaces_h
+#define Haptics_ProfileSurfaces_h
 
-#include "TriangleSurface.h"
+#include "haptics/Surface/TriangleSurface.h"
 
 #include <array>
 #include <functional>

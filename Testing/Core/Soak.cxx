@@ -4,12 +4,12 @@
 // fault, or the pull of a HIP stays unanswered. `--help` tells how to run it for long, or one
 // stroke again.
 #include "AnalyticSurfaces.h"
-#include "GodObject.h"
 #include "HipPath.h"
 #include "JudgedSoak.h"
 #include "SoakOptions.h"
 #include "SoakScenes.h"
 #include "Trial.h"
+#include "haptics/Contact/GodObject.h"
 
 #include <algorithm>
 #include <cmath>

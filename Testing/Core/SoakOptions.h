@@ -1,5 +1,5 @@
-#ifndef SoakOptions_h
-#define SoakOptions_h
+#ifndef Haptics_SoakOptions_h
+#define Haptics_SoakOptions_h
 
 #include <string>
 
@@ -8,11 +8,11 @@ namespace haptics::testing
 /// @brief The command line that soaks share.
 struct SoakOptions
 {
-  long Ticks = 0;    ///< for each scene and kind of way, >= 1
-  unsigned Seed = 1; ///< of what is random
-  std::string Scene; ///< only this one; empty: all
-  std::string Kind;  ///< only this kind of way; empty: all
-  long Episode = -1; ///< only this one of a judged soak, every tick printed; < 0: all
+  long Ticks = 0;      ///< for each scene and kind of way, >= 1
+  unsigned Seed = 1;   ///< of what is random
+  std::string Scene;   ///< only this one; empty: all
+  std::string Kind;    ///< only this kind of way; empty: all
+  long Episode = -1;   ///< only this one of a judged soak, every tick printed; < 0: all
   int PressEvery = 10; ///< of so many contact ticks of a judged soak one is pressed again; 0: none
 
   bool Chooses(const char* scene) const { return this->Scene.empty() || this->Scene == scene; }

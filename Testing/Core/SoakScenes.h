@@ -1,7 +1,7 @@
-#ifndef SoakScenes_h
-#define SoakScenes_h
+#ifndef Haptics_SoakScenes_h
+#define Haptics_SoakScenes_h
 
-#include "TouchedSurface.h"
+#include "haptics/Contact/TouchedSurface.h"
 
 #include <functional>
 #include <string>

@@ -1,7 +1,7 @@
-#ifndef SurfacePath_h
-#define SurfacePath_h
+#ifndef Haptics_SurfacePath_h
+#define Haptics_SurfacePath_h
 
-#include "TriangleSurface.h"
+#include "haptics/Surface/TriangleSurface.h"
 
 #include <random>
 #include <string>

@@ -1,8 +1,8 @@
 // Surfaces and HIPs that nobody should send: a right answer or none, never a leap or a NaN.
 #include "AnalyticSurfaces.h"
 #include "ExactQueries.h"
-#include "GodObject.h"
-#include "SurfaceForce.h"
+#include "haptics/Contact/GodObject.h"
+#include "haptics/Material/SurfaceForce.h"
 
 #include <gtest/gtest.h>
 
@@ -128,7 +128,7 @@ TEST(BadSurfaces, AHipThatJumpsAcrossTheWorldGetsAFiniteForceAndCrossesNothing)
       const double distance = distances[tick % 6];
       const Contact& contact =
         god.Update(distance * Unit({ std::cos(a), std::sin(a), std::sin(2.3 * a) }));
-      FeelLimits limits;
+      MaterialLimits limits;
       limits.MaximumForce = 3.3;
       const Vec3 force = SurfaceForce().Update(contact, 0.001, 500.0, limits);
       ASSERT_LE(Length(force), limits.MaximumForce * (1.0 + 1e-12)) << "tick " << tick;

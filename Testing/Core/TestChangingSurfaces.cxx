@@ -2,7 +2,7 @@
 // metres.
 #include "AnalyticSurfaces.h"
 #include "ExactQueries.h"
-#include "GodObject.h"
+#include "haptics/Contact/GodObject.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include "AnalyticSurfaces.h"
 #include "ExactEngine.h"
 #include "ExactQueries.h"
-#include "GodObject.h"
+#include "haptics/Contact/GodObject.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Equation (4) of the paper: the nearest point on one, two and three planes.
-#include "ConstraintSolver.h"
+#include "haptics/Contact/ConstraintSolver.h"
 
 #include <gtest/gtest.h>
 

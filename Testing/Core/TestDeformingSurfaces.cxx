@@ -1,8 +1,8 @@
 // A god-object on surfaces whose points move. Lengths are metres, a tick is a millisecond.
 #include "AnalyticSurfaces.h"
 #include "ExactQueries.h"
-#include "GodObject.h"
-#include "SurfaceDeformer.h"
+#include "haptics/Contact/GodObject.h"
+#include "haptics/Surface/SurfaceDeformer.h"
 
 #include <gtest/gtest.h>
 

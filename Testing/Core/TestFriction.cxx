@@ -1,8 +1,8 @@
 // Friction against Coulomb's law, and that it changes no guarantee of the update.
 #include "AnalyticSurfaces.h"
 #include "ExactQueries.h"
-#include "FeelTools.h"
 #include "HipPath.h"
+#include "MaterialTools.h"
 
 #include <gtest/gtest.h>
 

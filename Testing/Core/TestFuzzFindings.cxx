@@ -1,7 +1,7 @@
 // What fuzzing found, each a test of its own: see Testing/Fuzz.
 #include "AnalyticSurfaces.h"
 #include "ExactQueries.h"
-#include "GodObject.h"
+#include "haptics/Contact/GodObject.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // Where the god-object has to be, against closed forms. In the drawings o is the god-object and
 // x the haptic interface point (HIP). Lengths are metres.
 #include "AnalyticSurfaces.h"
-#include "GodObject.h"
-#include "SurfaceForce.h"
+#include "haptics/Contact/GodObject.h"
+#include "haptics/Material/SurfaceForce.h"
 
 #include <gtest/gtest.h>
 
@@ -452,7 +452,7 @@ TEST(GodObject, IsHeldNotLetThroughWhereTooManyTrianglesMeet)
 
 TEST(SurfaceForce, IsASpringLimitedToWhatTheDeviceCan)
 {
-  FeelLimits limits;
+  MaterialLimits limits;
   limits.MaximumForce = 3.0;
   const auto force = [&limits](const Vec3& displacement)
   {

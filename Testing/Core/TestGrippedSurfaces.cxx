@@ -2,7 +2,7 @@
 // drawings o is the god-object. Lengths are metres, a tick is a millisecond.
 #include "AnalyticSurfaces.h"
 #include "ExactQueries.h"
-#include "GodObject.h"
+#include "haptics/Contact/GodObject.h"
 
 #include <gtest/gtest.h>
 

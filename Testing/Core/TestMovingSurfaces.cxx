@@ -2,7 +2,7 @@
 // god-object and x the haptic interface point (HIP). Lengths are metres, a tick is a millisecond.
 #include "AnalyticSurfaces.h"
 #include "ExactQueries.h"
-#include "GodObject.h"
+#include "haptics/Contact/GodObject.h"
 
 #include <gtest/gtest.h>
 

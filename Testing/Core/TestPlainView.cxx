@@ -2,7 +2,7 @@
 // o is the god-object and x the haptic interface point (HIP). Lengths are metres.
 #include "AnalyticSurfaces.h"
 #include "ExactQueries.h"
-#include "GodObject.h"
+#include "haptics/Contact/GodObject.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // An update in the servo thread may not allocate: this program counts every malloc.
 #include "AnalyticSurfaces.h"
-#include "FeelTools.h"
-#include "Predicates.h"
-#include "SurfaceDeformer.h"
+#include "MaterialTools.h"
+#include "haptics/Math/Predicates.h"
+#include "haptics/Surface/SurfaceDeformer.h"
 
 #include <gtest/gtest.h>
 

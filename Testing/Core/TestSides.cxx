@@ -2,8 +2,8 @@
 // are metres. The programs HapticsSoak and HapticsMotionSoak have more, at random.
 #include "AnalyticSurfaces.h"
 #include "ExactQueries.h"
-#include "GodObject.h"
-#include "SurfaceDeformer.h"
+#include "haptics/Contact/GodObject.h"
+#include "haptics/Surface/SurfaceDeformer.h"
 
 #include <gtest/gtest.h>
 

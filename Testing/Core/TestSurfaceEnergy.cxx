@@ -1,6 +1,6 @@
 // Scenes S9, S10 and S11: where properties would make energy, and do not.
 #include "AnalyticSurfaces.h"
-#include "FeelTools.h"
+#include "MaterialTools.h"
 
 #include <gtest/gtest.h>
 
@@ -81,7 +81,7 @@ TEST(SurfaceEnergy, S9_TheSpringWithoutATankWouldMakeSevenMillijoules)
     {
       const Vec3 hip = from + (0.01 * i) * (to - from);
       const Contact& contact = hand.God.Update(hip);
-      const Vec3 force = contact.Felt.Stiffness * contact.Displacement;
+      const Vec3 force = contact.Material.Stiffness * contact.Displacement;
       energy += 0.5 * Dot(force + last, hip - place);
       last = force;
       place = hip;
@@ -195,7 +195,7 @@ TEST(SurfaceEnergy, ShadingTurnsTheForceToTheInterpolatedNormal)
     GodObject god({ { prism, nullptr, properties } });
     god.Update({ x, 0.0, height + 0.001 });
     const Contact& contact = god.Update({ x, 0.0, height - 0.002 });
-    ASSERT_TRUE(contact.Felt.IsShaded);
+    ASSERT_TRUE(contact.Material.IsShaded);
     EXPECT_NEAR(Length(contact.Shaded), contact.Penetration, 1e-12) << "only turned";
     const double tangent = std::tan(M_PI / 12) * x / 0.0025;
     EXPECT_NEAR(contact.Shaded[0] / contact.Shaded[2], tangent, 1e-6) << x;

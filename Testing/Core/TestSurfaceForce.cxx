@@ -1,6 +1,6 @@
 // The force of surfaces with properties against closed forms, and the energy it may not make.
 #include "AnalyticSurfaces.h"
-#include "FeelTools.h"
+#include "MaterialTools.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // How a surface moves between two updates of its pose. Lengths are metres.
 #include "AnalyticSurfaces.h"
-#include "SurfaceMotion.h"
+#include "haptics/Surface/SurfaceMotion.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#ifndef Trial_h
-#define Trial_h
+#ifndef Haptics_Trial_h
+#define Haptics_Trial_h
 
-#include "GodObject.h"
 #include "Judge.h"
+#include "haptics/Contact/GodObject.h"
 
 #include <functional>
 #include <memory>

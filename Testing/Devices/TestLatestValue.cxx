@@ -1,4 +1,4 @@
-#include "LatestValue.h"
+#include "haptics/Devices/LatestValue.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-#ifndef FilterTesting_h
-#define FilterTesting_h
+#ifndef Haptics_FilterTesting_h
+#define Haptics_FilterTesting_h
 
 #include "vtkCommand.h"
 #include "vtkPolyData.h"

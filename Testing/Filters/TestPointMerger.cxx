@@ -1,4 +1,4 @@
-#include "PointMerger.h"
+#include "haptics/Filters/PointMerger.h"
 
 #include <gtest/gtest.h>
 

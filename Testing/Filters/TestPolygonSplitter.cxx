@@ -1,4 +1,4 @@
-#include "PolygonSplitter.h"
+#include "haptics/Filters/PolygonSplitter.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // Any surfaces, any path: every piece of the way is checked with exact arithmetic.
 #include "ExactQueries.h"
 #include "FuzzInput.h"
-#include "GodObject.h"
-#include "SurfaceForce.h"
-#include "VectorMath.h"
+#include "haptics/Contact/GodObject.h"
+#include "haptics/Material/SurfaceForce.h"
+#include "haptics/Math/VectorMath.h"
 
 #include <algorithm>
 #include <cmath>
@@ -148,7 +148,7 @@ public:
   {
     Require(IsFinite(contact.Displacement), "the displacement is finite");
     Require(std::isfinite(contact.Penetration), "the penetration is finite");
-    FeelLimits limits;
+    MaterialLimits limits;
     limits.MaximumForce = 3.3;
     const Vec3 force = SurfaceForce().Update(contact, 0.001, 500.0, limits);
     Require(IsFinite(force), "the force is finite");

@@ -1,5 +1,5 @@
-#ifndef FuzzInput_h
-#define FuzzInput_h
+#ifndef Haptics_FuzzInput_h
+#define Haptics_FuzzInput_h
 
 #include <array>
 #include <cstddef>

@@ -1,7 +1,7 @@
-#ifndef RealSurface_h
-#define RealSurface_h
+#ifndef Haptics_RealSurface_h
+#define Haptics_RealSurface_h
 
-#include "TriangleSurface.h"
+#include "haptics/Surface/TriangleSurface.h"
 
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"

@@ -3,8 +3,8 @@
 #include "AnalyticSurfaces.h"
 #include "ExactEngine.h"
 #include "ExactQueries.h"
-#include "GodObject.h"
 #include "RealSurface.h"
+#include "haptics/Contact/GodObject.h"
 #include "vtkGodObjectFilter.h"
 
 #include "vtkNew.h"

@@ -1,5 +1,5 @@
-#ifndef GripTestTools_h
-#define GripTestTools_h
+#ifndef Haptics_GripTestTools_h
+#define Haptics_GripTestTools_h
 
 #include "SceneTestTools.h"
 

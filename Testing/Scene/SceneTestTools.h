@@ -1,5 +1,5 @@
-#ifndef SceneTestTools_h
-#define SceneTestTools_h
+#ifndef Haptics_SceneTestTools_h
+#define Haptics_SceneTestTools_h
 
 #include "vtkCallbackCommand.h"
 #include "vtkHapticSafety.h"

@@ -1,5 +1,5 @@
 #include "SceneTestTools.h"
-#include "TickRecord.h"
+#include "haptics/Tick/TickRecord.h"
 
 #include "vtkActor.h"
 #include "vtkCellArray.h"

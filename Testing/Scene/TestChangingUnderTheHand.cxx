@@ -1,8 +1,8 @@
 // Hands on surfaces that are exchanged, and hands that hit hard, with the safety at its defaults:
 // all come to rest, and no closed way gives the hand any work.
-#include "SafetySettings.h"
 #include "ServoTestTools.h"
-#include "TickRecord.h"
+#include "haptics/Servo/SafetySettings.h"
+#include "haptics/Tick/TickRecord.h"
 #include "vtkHapticServo.h"
 #include "vtkSimulatedHapticDevice.h"
 

@@ -1,5 +1,5 @@
 #include "ServoTestTools.h"
-#include "TickRecord.h"
+#include "haptics/Tick/TickRecord.h"
 #include "vtkHapticSafety.h"
 #include "vtkHapticServo.h"
 #include "vtkRecordedHapticDevice.h"

@@ -1,6 +1,6 @@
 // Surfaces that shake, and that do not: a servo on a plane with a simulated body, in virtual time.
 #include "ServoTestTools.h"
-#include "TickRecord.h"
+#include "haptics/Tick/TickRecord.h"
 #include "vtkHapticSafety.h"
 #include "vtkHapticServo.h"
 #include "vtkSimulatedHapticDevice.h"

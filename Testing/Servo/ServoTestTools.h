@@ -1,10 +1,10 @@
-#ifndef ServoTestTools_h
-#define ServoTestTools_h
+#ifndef Haptics_ServoTestTools_h
+#define Haptics_ServoTestTools_h
 
-#include "DeviceChannel.h"
-#include "GodObject.h"
-#include "TriangleSurface.h"
-#include "Vec3.h"
+#include "haptics/Contact/GodObject.h"
+#include "haptics/Devices/DeviceChannel.h"
+#include "haptics/Math/Vec3.h"
+#include "haptics/Surface/TriangleSurface.h"
 
 #include <algorithm>
 #include <atomic>

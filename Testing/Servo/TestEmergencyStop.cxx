@@ -1,7 +1,7 @@
 // A child process presses on a plane with a real servo thread and ends in one of many ways; the
 // device is in memory that it shares with this one, which reads what the hand was left with.
-#include "ServoLoop.h"
 #include "ServoTestTools.h"
+#include "haptics/Servo/ServoLoop.h"
 
 #include <gtest/gtest.h>
 

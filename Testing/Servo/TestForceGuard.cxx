@@ -1,5 +1,5 @@
-#include "ForceGuard.h"
-#include "OverrunBudget.h"
+#include "haptics/Servo/ForceGuard.h"
+#include "haptics/Servo/OverrunBudget.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // The energy account where a surface moves, deforms or changes by itself: what it does is its own
 // work, and the passivity observer takes no offence. Device frame, virtual time.
-#include "ForceGuard.h"
-#include "GodObject.h"
-#include "SurfaceDeformer.h"
+#include "haptics/Contact/GodObject.h"
+#include "haptics/Servo/ForceGuard.h"
+#include "haptics/Surface/SurfaceDeformer.h"
 
 #include <gtest/gtest.h>
 

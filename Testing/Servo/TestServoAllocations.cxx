@@ -1,6 +1,6 @@
-#include "ServoCycle.h"
-#include "ServoStatistics.h"
 #include "ServoTestTools.h"
+#include "haptics/Servo/ServoCycle.h"
+#include "haptics/Servo/ServoStatistics.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
-#include "RecordingChannel.h"
-#include "ServoCycle.h"
 #include "ServoTestTools.h"
-#include "SurfaceProperties.h"
+#include "haptics/Material/SurfaceProperties.h"
+#include "haptics/Servo/RecordingChannel.h"
+#include "haptics/Servo/ServoCycle.h"
 
 #include <gtest/gtest.h>
 

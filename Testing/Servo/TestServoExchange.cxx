@@ -1,6 +1,6 @@
-#include "GodObjectExchange.h"
 #include "ServoTestTools.h"
-#include "SurfaceDeformer.h"
+#include "haptics/Servo/GodObjectExchange.h"
+#include "haptics/Surface/SurfaceDeformer.h"
 
 #include <gtest/gtest.h>
 

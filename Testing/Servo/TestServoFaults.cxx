@@ -1,5 +1,5 @@
-#include "ServoLoop.h"
 #include "ServoTestTools.h"
+#include "haptics/Servo/ServoLoop.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "RingBuffer.h"
+#include "haptics/Servo/RingBuffer.h"
 
 #include <gtest/gtest.h>
 

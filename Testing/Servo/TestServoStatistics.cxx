@@ -1,5 +1,5 @@
-#include "LogHistogram.h"
-#include "ServoStatistics.h"
+#include "haptics/Servo/LogHistogram.h"
+#include "haptics/Servo/ServoStatistics.h"
 
 #include <gtest/gtest.h>
 

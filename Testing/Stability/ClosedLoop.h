@@ -1,8 +1,8 @@
-#ifndef ClosedLoop_h
-#define ClosedLoop_h
+#ifndef Haptics_ClosedLoop_h
+#define Haptics_ClosedLoop_h
 
 #include "ContactMethod.h"
-#include "SimulatedBody.h"
+#include "haptics/Devices/Simulated/SimulatedBody.h"
 
 #include <functional>
 #include <vector>

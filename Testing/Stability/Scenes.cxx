@@ -2,11 +2,11 @@
 
 #include "AnalyticSurfaces.h"
 #include "CertifiedMethod.h"
-#include "FeelTools.h"
-#include "GodObject.h"
+#include "MaterialTools.h"
 #include "PaperMethod.h"
 #include "ProfileSurfaces.h"
 #include "VectorFields.h"
+#include "haptics/Contact/GodObject.h"
 
 #include <algorithm>
 #include <cmath>
@@ -199,7 +199,7 @@ Trace SoftToHard(bool plain)
     const Vec3 force = hand.Move(path[tick]);
     const Contact& contact = hand.God.Current();
     trace.push_back(Felt(static_cast<int>(tick), path[tick], contact.Displacement,
-      plain ? contact.Felt.Stiffness * contact.Displacement : force));
+      plain ? contact.Material.Stiffness * contact.Displacement : force));
   }
   return trace;
 }

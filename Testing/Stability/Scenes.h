@@ -1,8 +1,8 @@
-#ifndef Scenes_h
-#define Scenes_h
+#ifndef Haptics_Scenes_h
+#define Haptics_Scenes_h
 
 #include "ClosedLoop.h"
-#include "TriangleSurface.h"
+#include "haptics/Surface/TriangleSurface.h"
 
 #include <array>
 #include <functional>

@@ -1,5 +1,5 @@
-#ifndef SuiteTools_h
-#define SuiteTools_h
+#ifndef Haptics_SuiteTools_h
+#define Haptics_SuiteTools_h
 
 #include "AnalyticSurfaces.h"
 #include "Scenes.h"

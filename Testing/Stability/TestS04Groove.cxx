@@ -1,8 +1,8 @@
 // S4: acute grooves are not crossed (Fig. 6), and planes nearly parallel have an answer.
 #include "ExactQueries.h"
-#include "GodObject.h"
 #include "ProfileSurfaces.h"
 #include "SuiteTools.h"
+#include "haptics/Contact/GodObject.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // What the image tests share: a surface and the hand in a small window, and the comparison.
-#ifndef ImageTestTools_h
-#define ImageTestTools_h
+#ifndef Haptics_ImageTestTools_h
+#define Haptics_ImageTestTools_h
 
 #include "vtkActor.h"
 #include "vtkCamera.h"

@@ -1,5 +1,5 @@
-#ifndef StyleTestTools_h
-#define StyleTestTools_h
+#ifndef Haptics_StyleTestTools_h
+#define Haptics_StyleTestTools_h
 
 #include "SceneTestTools.h"
 

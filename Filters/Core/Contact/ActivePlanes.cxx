@@ -1,6 +1,6 @@
-#include "ActivePlanes.h"
+#include "haptics/Contact/ActivePlanes.h"
 
-#include "ConstraintSolver.h"
+#include "haptics/Contact/ConstraintSolver.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
-#ifndef ActivePlanes_h
-#define ActivePlanes_h
+#ifndef Haptics_ActivePlanes_h
+#define Haptics_ActivePlanes_h
 
-#include "VectorMath.h"
+#include "haptics/Math/VectorMath.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
-#ifndef ConstraintSolver_h
-#define ConstraintSolver_h
+#ifndef Haptics_ConstraintSolver_h
+#define Haptics_ConstraintSolver_h
 
 namespace haptics
 {

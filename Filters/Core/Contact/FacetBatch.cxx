@@ -1,6 +1,6 @@
-#include "FacetBatch.h"
+#include "haptics/Contact/FacetBatch.h"
 
-#include "Facet.h"
+#include "haptics/Surface/Facet.h"
 
 #include <cmath>
 

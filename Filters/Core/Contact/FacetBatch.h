@@ -1,7 +1,7 @@
-#ifndef FacetBatch_h
-#define FacetBatch_h
+#ifndef Haptics_FacetBatch_h
+#define Haptics_FacetBatch_h
 
-#include "VectorMath.h"
+#include "haptics/Math/VectorMath.h"
 
 #include <array>
 #include <cstdint>

@@ -1,6 +1,6 @@
-#include "GodObject.h"
+#include "haptics/Contact/GodObject.h"
 
-#include "GodObjectImplementation.h"
+#include "haptics/Contact/GodObjectImplementation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -374,7 +374,7 @@ const Contact& GodObject::Update(const Vec3& hip) noexcept
   {
     god.ListConstraints();
   }
-  god.UpdateFeel();
+  god.UpdateMaterial();
   return result;
 }
 

@@ -1,9 +1,9 @@
-#ifndef GodObject_h
-#define GodObject_h
+#ifndef Haptics_GodObject_h
+#define Haptics_GodObject_h
 
-#include "Feel.h"
-#include "TouchedSurface.h"
-#include "Vec3.h"
+#include "haptics/Contact/TouchedSurface.h"
+#include "haptics/Material/Material.h"
+#include "haptics/Math/Vec3.h"
 #include "vtkHapticsCoreModule.h"
 
 #include <cstdint>
@@ -46,8 +46,9 @@ struct Contact
   int NumberOfConstraints = 0; ///< 0 to 3
   /// The first NumberOfConstraints are valid; the one that pushes most against the HIP comes first.
   std::array<Constraint, 3> Constraints;
-  Feel Felt;     ///< of the surfaces there; plain where none of the god-object's has properties
-  Vec3 Shaded{}; ///< Displacement turned by force shading; only where Felt.IsShaded
+  haptics::Material
+    Material;    ///< of the surfaces there; plain where none of the god-object's has properties
+  Vec3 Shaded{}; ///< Displacement turned by force shading; only where Material.IsShaded
 
   /// Whether surfaces hold the god-object back.
   bool IsTouching() const noexcept

@@ -1,9 +1,9 @@
-#ifndef GodObjectImplementation_h
-#define GodObjectImplementation_h
+#ifndef Haptics_GodObjectImplementation_h
+#define Haptics_GodObjectImplementation_h
 
-#include "Friction.h"
-#include "GodObject.h"
-#include "WorkingSet.h"
+#include "haptics/Contact/GodObject.h"
+#include "haptics/Contact/WorkingSet.h"
+#include "haptics/Material/Friction.h"
 
 namespace haptics
 {
@@ -25,7 +25,7 @@ constexpr std::int64_t LargestNumberOfTriangles = 1 << 17;
 constexpr int LargestWay = LargestNumberOfPasses * LargestNumberOfCasts + 1;
 
 /// What a god-object does: GodObject.cxx moves it to the HIP, GodObjectMotion.cxx with surfaces
-/// that move, GodObjectFeel.cxx tells what they feel like and lets friction hold it.
+/// that move, GodObjectMaterial.cxx tells what they feel like and lets friction hold it.
 class GodObject::Implementation
 {
 public:
@@ -37,7 +37,7 @@ public:
   bool HasArrived() const;
   void Update(const Vector& hip);
   void ListConstraints();
-  void UpdateFeel();
+  void UpdateMaterial();
   void StayInContact(const Implementation& previous);
   void Settle(const Implementation& previous);
   bool FeelsAs(const Implementation& previous) const;

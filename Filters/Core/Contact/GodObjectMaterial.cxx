@@ -1,5 +1,5 @@
-#include "FeelBlend.h"
-#include "GodObjectImplementation.h"
+#include "haptics/Contact/GodObjectImplementation.h"
+#include "haptics/Material/MaterialBlend.h"
 
 #include <algorithm>
 
@@ -43,7 +43,7 @@ void GodObject::Implementation::WalkWithFriction(const Vector& hip)
 Vector GodObject::Implementation::AimWithFriction(const Vector& hip)
 {
   // What the last update found here; the god-object has not moved over its surface since.
-  const Feel& felt = this->Result.Felt;
+  const Material& felt = this->Result.Material;
   if (felt.StaticFriction <= 0.0 || this->Active.IsEmpty())
   {
     return hip;
@@ -59,13 +59,13 @@ Vector GodObject::Implementation::AimWithFriction(const Vector& hip)
 }
 
 /// Tells what the surfaces that hold the god-object feel like here.
-void GodObject::Implementation::UpdateFeel()
+void GodObject::Implementation::UpdateMaterial()
 {
   if (!this->HasProperties)
   {
     return;
   }
-  FeelBlend blend;
+  MaterialBlend blend;
   const Vector displacement = ToVector(this->Result.Displacement);
   for (int i = 0; i < this->Result.NumberOfConstraints; ++i)
   {
@@ -75,7 +75,7 @@ void GodObject::Implementation::UpdateFeel()
     {
       continue;
     }
-    Feel feel;
+    Material feel;
     Vector shaded(0.0);
     const TouchedSurface& touched = this->Surfaces[plane.Facet.Surface];
     if (const SurfaceProperties* properties = touched.Properties.get())
@@ -91,8 +91,8 @@ void GodObject::Implementation::UpdateFeel()
     }
     blend.Add(feel, push, plane.Normal, shaded);
   }
-  this->Result.Felt = blend.Blended();
-  if (this->Result.Felt.IsShaded)
+  this->Result.Material = blend.Blended();
+  if (this->Result.Material.IsShaded)
   {
     this->Result.Shaded = ToVec3(blend.Shade(displacement));
   }
@@ -112,7 +112,7 @@ bool GodObject::Implementation::FeelsAs(const Implementation& previous) const
 /// same or goes on deforming: so that one held by friction stays, whatever else comes and goes.
 void GodObject::Implementation::StayInContact(const Implementation& previous)
 {
-  this->Result.Felt = Feel();
+  this->Result.Material = haptics::Material();
   const Vector shift = previous.Origin - this->Origin;
   if (this->Position != previous.Position + shift)
   {
@@ -144,6 +144,6 @@ void GodObject::Implementation::StayInContact(const Implementation& previous)
   this->Active = kept;
   this->Cone = previous.Cone;
   this->Result.NumberOfConstraints = kept.SupportSize();
-  this->UpdateFeel();
+  this->UpdateMaterial();
 }
 }

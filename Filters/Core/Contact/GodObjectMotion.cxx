@@ -1,4 +1,4 @@
-#include "GodObjectImplementation.h"
+#include "haptics/Contact/GodObjectImplementation.h"
 
 #include <algorithm>
 

@@ -1,9 +1,9 @@
-#ifndef TouchedSurface_h
-#define TouchedSurface_h
+#ifndef Haptics_TouchedSurface_h
+#define Haptics_TouchedSurface_h
 
-#include "SurfaceMotion.h"
-#include "SurfaceProperties.h"
-#include "TriangleSurface.h"
+#include "haptics/Material/SurfaceProperties.h"
+#include "haptics/Surface/SurfaceMotion.h"
+#include "haptics/Surface/TriangleSurface.h"
 
 #include <cstdint>
 #include <memory>

@@ -1,6 +1,6 @@
-#include "WorkingSet.h"
+#include "haptics/Contact/WorkingSet.h"
 
-#include "Predicates.h"
+#include "haptics/Math/Predicates.h"
 
 #include <algorithm>
 #include <cmath>

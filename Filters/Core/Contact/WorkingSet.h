@@ -1,11 +1,11 @@
-#ifndef WorkingSet_h
-#define WorkingSet_h
+#ifndef Haptics_WorkingSet_h
+#define Haptics_WorkingSet_h
 
-#include "ActivePlanes.h"
-#include "Facet.h"
-#include "SurfaceFrame.h"
-#include "SurfaceSide.h"
-#include "TriangleSurface.h"
+#include "haptics/Contact/ActivePlanes.h"
+#include "haptics/Surface/Facet.h"
+#include "haptics/Surface/SurfaceFrame.h"
+#include "haptics/Surface/SurfaceSide.h"
+#include "haptics/Surface/TriangleSurface.h"
 
 #include <array>
 #include <memory>

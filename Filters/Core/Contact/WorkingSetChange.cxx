@@ -1,5 +1,5 @@
 // The part of WorkingSet that goes on from a surface to the one that takes its place.
-#include "WorkingSet.h"
+#include "haptics/Contact/WorkingSet.h"
 
 namespace haptics
 {

@@ -1,7 +1,7 @@
 // The part of WorkingSet that fetches triangles from the surface's engine.
-#include "WorkingSet.h"
+#include "haptics/Contact/WorkingSet.h"
 
-#include "FacetBatch.h"
+#include "haptics/Contact/FacetBatch.h"
 
 #include <algorithm>
 #include <cmath>

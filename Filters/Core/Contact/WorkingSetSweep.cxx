@@ -1,7 +1,7 @@
 // The part of WorkingSet that knows surfaces which deform.
-#include "Predicates.h"
-#include "SweptTriangle.h"
-#include "WorkingSet.h"
+#include "haptics/Contact/WorkingSet.h"
+#include "haptics/Math/Predicates.h"
+#include "haptics/Math/SweptTriangle.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
-#ifndef ForceModel_h
-#define ForceModel_h
+#ifndef Haptics_ForceModel_h
+#define Haptics_ForceModel_h
 
 #include <limits>
 

@@ -1,4 +1,4 @@
-#include "ForceProfile.h"
+#include "haptics/Material/ForceProfile.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
-#ifndef ForceProfile_h
-#define ForceProfile_h
+#ifndef Haptics_ForceProfile_h
+#define Haptics_ForceProfile_h
 
 #include "vtkHapticsCoreModule.h"
 

@@ -1,7 +1,7 @@
-#ifndef Friction_h
-#define Friction_h
+#ifndef Haptics_Friction_h
+#define Haptics_Friction_h
 
-#include "VectorMath.h"
+#include "haptics/Math/VectorMath.h"
 
 namespace haptics
 {

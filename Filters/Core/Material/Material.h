@@ -1,5 +1,5 @@
-#ifndef Feel_h
-#define Feel_h
+#ifndef Haptics_Material_h
+#define Haptics_Material_h
 
 namespace haptics
 {
@@ -10,7 +10,7 @@ constexpr double LargestTexture = 0.5;
 
 /// @brief What a contact feels like: the properties of the surfaces that hold the god-object, where
 /// it stands, each by its share of the push. Device frame.
-struct Feel
+struct Material
 {
   /// No surface has properties: nothing below counts, and nothing was looked up.
   bool IsPlain = true;

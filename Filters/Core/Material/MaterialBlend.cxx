@@ -1,8 +1,9 @@
-#include "FeelBlend.h"
+#include "haptics/Material/MaterialBlend.h"
 
 namespace haptics
 {
-void FeelBlend::Add(const Feel& feel, double push, const Vector& normal, const Vector& shaded)
+void MaterialBlend::Add(
+  const Material& feel, double push, const Vector& normal, const Vector& shaded)
 {
   if (this->Push == 0.0)
   {
@@ -29,9 +30,9 @@ void FeelBlend::Add(const Feel& feel, double push, const Vector& normal, const V
   this->IsShaded = this->IsShaded || length > 0.0;
 }
 
-Feel FeelBlend::Blended() const
+Material MaterialBlend::Blended() const
 {
-  Feel feel = this->Sum;
+  Material feel = this->Sum;
   feel.IsPlain = false;
   if (this->Push > 0.0)
   {
@@ -47,7 +48,7 @@ Feel FeelBlend::Blended() const
   return feel;
 }
 
-Vector FeelBlend::Shade(const Vector& displacement) const
+Vector MaterialBlend::Shade(const Vector& displacement) const
 {
   const double from = glm::length(this->Normal);
   const double to = glm::length(this->ShadedNormal);

@@ -1,26 +1,26 @@
-#ifndef FeelBlend_h
-#define FeelBlend_h
+#ifndef Haptics_MaterialBlend_h
+#define Haptics_MaterialBlend_h
 
-#include "Feel.h"
-#include "VectorMath.h"
+#include "haptics/Material/Material.h"
+#include "haptics/Math/VectorMath.h"
 
 namespace haptics
 {
 /// @brief What several facets that hold the god-object at once feel like together: each counts by
 /// its share of the push.
-class FeelBlend
+class MaterialBlend
 {
 public:
   /// A facet that pushes with `push` > 0 (any unit) along `normal`, and what it feels like.
   /// `shaded` is the interpolated normal there, of any length; zero where nothing is shaded.
-  void Add(const Feel& feel, double push, const Vector& normal, const Vector& shaded);
+  void Add(const Material& feel, double push, const Vector& normal, const Vector& shaded);
   /// What came of it; plain where nothing was added.
-  Feel Blended() const;
+  Material Blended() const;
   /// The displacement turned as the normal turns by shading; of the same length.
   Vector Shade(const Vector& displacement) const;
 
 private:
-  Feel Sum;
+  Material Sum;
   double Push = 0.0;
   double StrongestPush = 0.0;
   Vector Normal{ 0 };

@@ -1,7 +1,7 @@
-#include "SurfaceForce.h"
+#include "haptics/Material/SurfaceForce.h"
 
-#include "ForceProfile.h"
-#include "VectorMath.h"
+#include "haptics/Material/ForceProfile.h"
+#include "haptics/Math/VectorMath.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +27,7 @@ double LawEnergyOf(const ForceProfile* profile, double depth)
 }
 
 double SurfaceForce::WantedGain(
-  const Feel& felt, double plainStiffness, const FeelLimits& limits) noexcept
+  const Material& felt, double plainStiffness, const MaterialLimits& limits) noexcept
 {
   const double slope = felt.Profile ? felt.Profile->SteepestSlope() : 1.0;
   const double smooth = felt.Profile ? 1.0 : felt.Stiffness + felt.PlainShare * plainStiffness;
@@ -38,7 +38,7 @@ double SurfaceForce::WantedGain(
 
 void SurfaceForce::SetGain(const Contact& contact, double wanted, double depth) noexcept
 {
-  const ForceProfile* const profile = contact.Felt.Profile;
+  const ForceProfile* const profile = contact.Material.Profile;
   const double energy = LawEnergyOf(profile, depth);
   this->HeldBack = false;
   if (!this->WasTouching || this->Depth == 0.0 || energy == 0.0)
@@ -86,8 +86,8 @@ void SurfaceForce::SetGain(const Contact& contact, double wanted, double depth) 
 
 /// The spring alone. What it remembers is for surfaces with properties that the same touch may
 /// come to.
-Vec3 SurfaceForce::PlainForce(
-  const Contact& contact, double depth, double plainStiffness, const FeelLimits& limits) noexcept
+Vec3 SurfaceForce::PlainForce(const Contact& contact, double depth, double plainStiffness,
+  const MaterialLimits& limits) noexcept
 {
   const Vector law = plainStiffness * ToVector(contact.Displacement);
   const double length = glm::length(law);
@@ -106,8 +106,8 @@ Vec3 SurfaceForce::PlainForce(
   return ToVec3(this->Clamped ? law * (limits.MaximumForce / length) : law);
 }
 
-Vec3 SurfaceForce::Update(
-  const Contact& contact, double period, double plainStiffness, const FeelLimits& limits) noexcept
+Vec3 SurfaceForce::Update(const Contact& contact, double period, double plainStiffness,
+  const MaterialLimits& limits) noexcept
 {
   const Vector displacement = ToVector(contact.Displacement);
   const double depth = glm::length(displacement);
@@ -119,15 +119,15 @@ Vec3 SurfaceForce::Update(
     this->Stiffness = plainStiffness;
     return {};
   }
-  this->HasProperties = this->HasProperties || !contact.Felt.IsPlain;
+  this->HasProperties = this->HasProperties || !contact.Material.IsPlain;
   if (!this->HasProperties)
   {
     return this->PlainForce(contact, depth, plainStiffness, limits);
   }
-  this->SetGain(contact, this->WantedGain(contact.Felt, plainStiffness, limits), depth);
+  this->SetGain(contact, this->WantedGain(contact.Material, plainStiffness, limits), depth);
   this->Stiffness = this->Gain * (this->Profile ? this->Profile->SteepestSlope() : 1.0);
 
-  const bool needsVelocity = contact.Felt.Damping > 0.0 || contact.Felt.IsShaded;
+  const bool needsVelocity = contact.Material.Damping > 0.0 || contact.Material.IsShaded;
   Vector step(0.0);
   Vector velocity(0.0);
   if (needsVelocity && this->WasTouching && period > 0.0)
@@ -141,16 +141,16 @@ Vec3 SurfaceForce::Update(
   const double magnitude = this->Gain * LawForceOf(this->Profile, depth);
   const Vector law = displacement * (magnitude / depth);
   Vector other(0.0);
-  if (contact.Felt.IsShaded)
+  if (contact.Material.IsShaded)
   {
     other = (ToVector(contact.Shaded) - displacement) * (magnitude / depth);
     const double gives =
       std::max({ glm::dot(other, step), glm::dot(other, velocity) * period, 0.0 });
     other *= gives > 0.0 ? std::min(1.0, std::max(this->Tank, 0.0) / (TicksToEmpty * gives)) : 1.0;
   }
-  if (contact.Felt.Damping > 0.0)
+  if (contact.Material.Damping > 0.0)
   {
-    Vector damping = -std::min(contact.Felt.Damping, limits.Damping) * velocity;
+    Vector damping = -std::min(contact.Material.Damping, limits.Damping) * velocity;
     const double pull = glm::dot(damping, displacement) / depth;
     if (pull < -magnitude)
     {

@@ -1,8 +1,8 @@
-#ifndef SurfaceForce_h
-#define SurfaceForce_h
+#ifndef Haptics_SurfaceForce_h
+#define Haptics_SurfaceForce_h
 
-#include "GodObject.h"
-#include "Vec3.h"
+#include "haptics/Contact/GodObject.h"
+#include "haptics/Math/Vec3.h"
 #include "vtkHapticsCoreModule.h"
 
 #include <limits>
@@ -10,7 +10,7 @@
 namespace haptics
 {
 /// What device and servo allow.
-struct FeelLimits
+struct MaterialLimits
 {
   double Stiffness = std::numeric_limits<double>::infinity();    ///< [N/m]
   double Damping = 4.0;                                          ///< [N s/m]
@@ -40,9 +40,9 @@ struct FeelLimits
 /// hand lets go is forgotten; a debt is kept. Force that the largest force cuts off fills no tank.
 ///
 /// **Damping** uses the velocity of the HIP through a filter of first order with a time constant of
-/// 5 ms: that is its delay, for all slow motions. It is at most FeelLimits::Damping, and never
+/// 5 ms: that is its delay, for all slow motions. It is at most MaterialLimits::Damping, and never
 /// pulls towards the surface. What it costs of the stable stiffness is |B| (Colgate and Schenkel:
-/// b > KT/2 + |B|), which FeelLimits::Stiffness has to account for.
+/// b > KT/2 + |B|), which MaterialLimits::Stiffness has to account for.
 ///
 /// Servo thread; no allocation, no lock.
 class VTKHAPTICSCORE_EXPORT SurfaceForce
@@ -54,7 +54,7 @@ public:
   /// last tick [s]; `plainStiffness` [N/m] is that of surfaces which have none of their own. Zero
   /// in free space, and where the displacement is not finite.
   Vec3 Update(const Contact& contact, double period, double plainStiffness,
-    const FeelLimits& limits) noexcept;
+    const MaterialLimits& limits) noexcept;
 
   /// Of the last force: the gain [N/m], or with a profile its steepest slope [N/m]; the plain
   /// stiffness in free space.
@@ -69,9 +69,10 @@ public:
   double GetTank() const noexcept { return this->Tank; }
 
 private:
-  Vec3 PlainForce(
-    const Contact& contact, double depth, double plainStiffness, const FeelLimits& limits) noexcept;
-  double WantedGain(const Feel& felt, double plainStiffness, const FeelLimits& limits) noexcept;
+  Vec3 PlainForce(const Contact& contact, double depth, double plainStiffness,
+    const MaterialLimits& limits) noexcept;
+  double WantedGain(
+    const Material& felt, double plainStiffness, const MaterialLimits& limits) noexcept;
   void SetGain(const Contact& contact, double wanted, double depth) noexcept;
 
   bool WasTouching = false;

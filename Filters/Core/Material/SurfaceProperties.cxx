@@ -1,6 +1,6 @@
-#include "SurfaceProperties.h"
+#include "haptics/Material/SurfaceProperties.h"
 
-#include "ShadingNormals.h"
+#include "haptics/Surface/ShadingNormals.h"
 
 #include <algorithm>
 #include <cmath>
@@ -192,10 +192,10 @@ double SurfaceProperties::Value(Property property, const Triangle& corners, std:
     weights[2] * field.Values[corners[2]];
 }
 
-Feel SurfaceProperties::At(
+Material SurfaceProperties::At(
   const Triangle& corners, std::int32_t triangle, const Corners& weights) const noexcept
 {
-  Feel feel;
+  Material feel;
   feel.IsPlain = false;
   const PropertyField& stiffness = this->Given.Fields[static_cast<int>(Property::Stiffness)];
   if (stiffness.Values.empty() || stiffness.IsPerTriangle)

@@ -1,9 +1,9 @@
-#ifndef SurfaceProperties_h
-#define SurfaceProperties_h
+#ifndef Haptics_SurfaceProperties_h
+#define Haptics_SurfaceProperties_h
 
-#include "Feel.h"
-#include "ForceProfile.h"
-#include "TriangleSurface.h"
+#include "haptics/Material/ForceProfile.h"
+#include "haptics/Material/Material.h"
+#include "haptics/Surface/TriangleSurface.h"
 #include "vtkHapticsCoreModule.h"
 
 #include <array>
@@ -81,7 +81,7 @@ public:
   using Corners = std::array<double, 3>; ///< weights of a triangle's corners, sum 1
 
   /// The properties at a place of a triangle of the surface, as if it were all of the contact.
-  Feel At(const Triangle& corners, std::int32_t triangle, const Corners& weights) const noexcept;
+  Material At(const Triangle& corners, std::int32_t triangle, const Corners& weights) const noexcept;
   bool IsShaded() const noexcept { return !this->Normals.empty(); }
   /// The interpolated normal there, surface frame, not of unit length. Only where IsShaded().
   Vec3 NormalAt(std::int32_t triangle, const Corners& weights) const noexcept;

@@ -1,5 +1,5 @@
-#ifndef Mailbox_h
-#define Mailbox_h
+#ifndef Haptics_Mailbox_h
+#define Haptics_Mailbox_h
 
 #include <array>
 #include <atomic>

@@ -1,7 +1,7 @@
-#ifndef NearestOnTriangle_h
-#define NearestOnTriangle_h
+#ifndef Haptics_NearestOnTriangle_h
+#define Haptics_NearestOnTriangle_h
 
-#include "VectorMath.h"
+#include "haptics/Math/VectorMath.h"
 
 namespace haptics
 {

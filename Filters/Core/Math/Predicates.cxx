@@ -1,4 +1,4 @@
-#include "Predicates.h"
+#include "haptics/Math/Predicates.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 

@@ -1,7 +1,7 @@
-#ifndef Predicates_h
-#define Predicates_h
+#ifndef Haptics_Predicates_h
+#define Haptics_Predicates_h
 
-#include "VectorMath.h"
+#include "haptics/Math/VectorMath.h"
 
 namespace haptics
 {

@@ -1,7 +1,7 @@
-#ifndef RigidPose_h
-#define RigidPose_h
+#ifndef Haptics_RigidPose_h
+#define Haptics_RigidPose_h
 
-#include "Vec3.h"
+#include "haptics/Math/Vec3.h"
 
 #include <array>
 

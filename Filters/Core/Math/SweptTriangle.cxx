@@ -1,6 +1,6 @@
-#include "SweptTriangle.h"
+#include "haptics/Math/SweptTriangle.h"
 
-#include "NearestOnTriangle.h"
+#include "haptics/Math/NearestOnTriangle.h"
 
 #include <glm/common.hpp>
 

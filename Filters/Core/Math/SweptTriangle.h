@@ -1,7 +1,7 @@
-#ifndef SweptTriangle_h
-#define SweptTriangle_h
+#ifndef Haptics_SweptTriangle_h
+#define Haptics_SweptTriangle_h
 
-#include "VectorMath.h"
+#include "haptics/Math/VectorMath.h"
 
 #include <array>
 

@@ -1,5 +1,5 @@
-#ifndef Vec3_h
-#define Vec3_h
+#ifndef Haptics_Vec3_h
+#define Haptics_Vec3_h
 
 #include <array>
 

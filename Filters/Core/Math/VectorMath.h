@@ -1,7 +1,7 @@
-#ifndef VectorMath_h
-#define VectorMath_h
+#ifndef Haptics_VectorMath_h
+#define Haptics_VectorMath_h
 
-#include "Vec3.h"
+#include "haptics/Math/Vec3.h"
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>

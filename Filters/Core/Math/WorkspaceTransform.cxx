@@ -1,4 +1,4 @@
-#include "WorkspaceTransform.h"
+#include "haptics/Math/WorkspaceTransform.h"
 
 #include <algorithm>
 #include <cmath>

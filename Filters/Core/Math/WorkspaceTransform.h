@@ -1,7 +1,7 @@
-#ifndef WorkspaceTransform_h
-#define WorkspaceTransform_h
+#ifndef Haptics_WorkspaceTransform_h
+#define Haptics_WorkspaceTransform_h
 
-#include "Vec3.h"
+#include "haptics/Math/Vec3.h"
 #include "vtkHapticsCoreModule.h"
 
 #include <array>

@@ -1,6 +1,6 @@
-#include "BruteForceEngine.h"
+#include "haptics/Surface/BruteForceEngine.h"
 
-#include "VectorMath.h"
+#include "haptics/Math/VectorMath.h"
 
 #include <glm/common.hpp>
 

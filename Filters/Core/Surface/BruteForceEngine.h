@@ -1,7 +1,7 @@
-#ifndef BruteForceEngine_h
-#define BruteForceEngine_h
+#ifndef Haptics_BruteForceEngine_h
+#define Haptics_BruteForceEngine_h
 
-#include "CollisionEngine.h"
+#include "haptics/Surface/CollisionEngine.h"
 
 namespace haptics
 {

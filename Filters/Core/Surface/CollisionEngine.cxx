@@ -1,7 +1,7 @@
-#include "CollisionEngine.h"
+#include "haptics/Surface/CollisionEngine.h"
 
-#include "BruteForceEngine.h"
-#include "EmbreeEngine.h"
+#include "haptics/Surface/BruteForceEngine.h"
+#include "haptics/Surface/EmbreeEngine.h"
 
 #include <atomic>
 

@@ -1,7 +1,7 @@
-#ifndef CollisionEngine_h
-#define CollisionEngine_h
+#ifndef Haptics_CollisionEngine_h
+#define Haptics_CollisionEngine_h
 
-#include "Vec3.h"
+#include "haptics/Math/Vec3.h"
 #include "vtkHapticsCoreModule.h"
 
 #include <array>

@@ -1,7 +1,7 @@
 // The only file that knows Embree: releases 3 and 4 differ in how a query gets its callback.
-#include "EmbreeEngine.h"
+#include "haptics/Surface/EmbreeEngine.h"
 
-#include "VectorMath.h"
+#include "haptics/Math/VectorMath.h"
 
 #if HAPTICS_EMBREE_VERSION >= 4
 #include <embree4/rtcore.h>

@@ -1,7 +1,7 @@
-#ifndef EmbreeEngine_h
-#define EmbreeEngine_h
+#ifndef Haptics_EmbreeEngine_h
+#define Haptics_EmbreeEngine_h
 
-#include "CollisionEngine.h"
+#include "haptics/Surface/CollisionEngine.h"
 
 namespace haptics
 {

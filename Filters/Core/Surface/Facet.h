@@ -1,8 +1,8 @@
-#ifndef Facet_h
-#define Facet_h
+#ifndef Haptics_Facet_h
+#define Haptics_Facet_h
 
-#include "NearestOnTriangle.h"
-#include "VectorMath.h"
+#include "haptics/Math/NearestOnTriangle.h"
+#include "haptics/Math/VectorMath.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
-#include "ShadingNormals.h"
+#include "haptics/Surface/ShadingNormals.h"
 
-#include "Facet.h"
+#include "haptics/Surface/Facet.h"
 
 #include <cmath>
 #include <numeric>

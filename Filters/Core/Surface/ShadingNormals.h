@@ -1,7 +1,7 @@
-#ifndef ShadingNormals_h
-#define ShadingNormals_h
+#ifndef Haptics_ShadingNormals_h
+#define Haptics_ShadingNormals_h
 
-#include "TriangleSurface.h"
+#include "haptics/Surface/TriangleSurface.h"
 
 #include <array>
 #include <vector>

@@ -1,6 +1,6 @@
-#include "SurfaceDeformer.h"
+#include "haptics/Surface/SurfaceDeformer.h"
 
-#include "VectorMath.h"
+#include "haptics/Math/VectorMath.h"
 
 #include <glm/common.hpp>
 

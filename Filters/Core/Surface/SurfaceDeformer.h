@@ -1,7 +1,7 @@
-#ifndef SurfaceDeformer_h
-#define SurfaceDeformer_h
+#ifndef Haptics_SurfaceDeformer_h
+#define Haptics_SurfaceDeformer_h
 
-#include "TriangleSurface.h"
+#include "haptics/Surface/TriangleSurface.h"
 #include "vtkHapticsCoreModule.h"
 
 #include <memory>

@@ -1,8 +1,8 @@
-#ifndef SurfaceFrame_h
-#define SurfaceFrame_h
+#ifndef Haptics_SurfaceFrame_h
+#define Haptics_SurfaceFrame_h
 
-#include "RigidPose.h"
-#include "VectorMath.h"
+#include "haptics/Math/RigidPose.h"
+#include "haptics/Math/VectorMath.h"
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>

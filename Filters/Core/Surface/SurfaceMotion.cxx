@@ -1,6 +1,6 @@
-#include "SurfaceMotion.h"
+#include "haptics/Surface/SurfaceMotion.h"
 
-#include "SurfaceFrame.h"
+#include "haptics/Surface/SurfaceFrame.h"
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
-#ifndef SurfaceMotion_h
-#define SurfaceMotion_h
+#ifndef Haptics_SurfaceMotion_h
+#define Haptics_SurfaceMotion_h
 
-#include "Mailbox.h"
-#include "RigidPose.h"
+#include "haptics/Math/Mailbox.h"
+#include "haptics/Math/RigidPose.h"
 #include "vtkHapticsCoreModule.h"
 
 #include <cmath>

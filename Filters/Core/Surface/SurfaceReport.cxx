@@ -1,6 +1,6 @@
-#include "SurfaceReport.h"
+#include "haptics/Surface/SurfaceReport.h"
 
-#include "VectorMath.h"
+#include "haptics/Math/VectorMath.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,7 +1,7 @@
-#ifndef SurfaceReport_h
-#define SurfaceReport_h
+#ifndef Haptics_SurfaceReport_h
+#define Haptics_SurfaceReport_h
 
-#include "Vec3.h"
+#include "haptics/Math/Vec3.h"
 #include "vtkHapticsCoreModule.h"
 
 #include <array>

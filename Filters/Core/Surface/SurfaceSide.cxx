@@ -1,8 +1,8 @@
-#include "SurfaceSide.h"
+#include "haptics/Surface/SurfaceSide.h"
 
-#include "Facet.h"
-#include "NearestOnTriangle.h"
-#include "Predicates.h"
+#include "haptics/Math/NearestOnTriangle.h"
+#include "haptics/Math/Predicates.h"
+#include "haptics/Surface/Facet.h"
 
 #include <algorithm>
 #include <array>

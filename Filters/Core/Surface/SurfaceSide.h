@@ -1,8 +1,8 @@
-#ifndef SurfaceSide_h
-#define SurfaceSide_h
+#ifndef Haptics_SurfaceSide_h
+#define Haptics_SurfaceSide_h
 
-#include "TriangleSurface.h"
-#include "VectorMath.h"
+#include "haptics/Math/VectorMath.h"
+#include "haptics/Surface/TriangleSurface.h"
 
 #include <cstdint>
 

@@ -1,6 +1,6 @@
-#include "TriangleSurface.h"
+#include "haptics/Surface/TriangleSurface.h"
 
-#include "Facet.h"
+#include "haptics/Surface/Facet.h"
 
 #include <glm/common.hpp>
 

@@ -1,9 +1,9 @@
-#ifndef TriangleSurface_h
-#define TriangleSurface_h
+#ifndef Haptics_TriangleSurface_h
+#define Haptics_TriangleSurface_h
 
-#include "CollisionEngine.h"
-#include "SurfaceReport.h"
-#include "Vec3.h"
+#include "haptics/Math/Vec3.h"
+#include "haptics/Surface/CollisionEngine.h"
+#include "haptics/Surface/SurfaceReport.h"
 #include "vtkHapticsCoreModule.h"
 
 #include <array>

@@ -1,6 +1,6 @@
-#include "ContactTick.h"
+#include "haptics/Tick/ContactTick.h"
 
-#include "VectorMath.h"
+#include "haptics/Math/VectorMath.h"
 
 namespace haptics
 {
@@ -30,9 +30,9 @@ const Contact& ContactTick::Touch(GodObject& god, const Vec3& devicePosition, co
   if (contact.Status == UpdateStatus::InvalidHip)
   {
     this->InDevice.Carried = {};
-    this->InDevice.Felt = Feel();
+    this->InDevice.Material = haptics::Material();
   }
-  if (contact.Felt.IsShaded)
+  if (contact.Material.IsShaded)
   {
     this->InDevice.Shaded = deviceToWorld.VectorToDevice(contact.Shaded);
   }

@@ -1,10 +1,10 @@
-#ifndef ContactTick_h
-#define ContactTick_h
+#ifndef Haptics_ContactTick_h
+#define Haptics_ContactTick_h
 
-#include "GodObject.h"
-#include "SurfaceForce.h"
-#include "TickRecord.h"
-#include "WorkspaceTransform.h"
+#include "haptics/Contact/GodObject.h"
+#include "haptics/Material/SurfaceForce.h"
+#include "haptics/Math/WorkspaceTransform.h"
+#include "haptics/Tick/TickRecord.h"
 #include "vtkHapticsCoreModule.h"
 
 namespace haptics

@@ -1,8 +1,8 @@
-#ifndef TickRecord_h
-#define TickRecord_h
+#ifndef Haptics_TickRecord_h
+#define Haptics_TickRecord_h
 
-#include "GodObject.h"
-#include "Vec3.h"
+#include "haptics/Contact/GodObject.h"
+#include "haptics/Math/Vec3.h"
 
 #include <cstdint>
 
@@ -10,7 +10,7 @@ namespace haptics
 {
 /// @brief What one tick saw and did: its contact in the world frame, and the force made of it.
 ///
-/// Plain memory, copied between threads. Felt.Profile may be gone: it is not to be followed.
+/// Plain memory, copied between threads. Material.Profile may be gone: it is not to be followed.
 struct TickRecord : Contact
 {
   std::uint64_t Tick = 0; ///< counted from 0 at the servo's start

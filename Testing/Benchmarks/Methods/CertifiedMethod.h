@@ -1,8 +1,8 @@
-#ifndef CertifiedMethod_h
-#define CertifiedMethod_h
+#ifndef Haptics_CertifiedMethod_h
+#define Haptics_CertifiedMethod_h
 
 #include "ContactMethod.h"
-#include "TriangleSurface.h"
+#include "haptics/Surface/TriangleSurface.h"
 
 #include <memory>
 #include <vector>

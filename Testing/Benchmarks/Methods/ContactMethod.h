@@ -1,7 +1,7 @@
-#ifndef ContactMethod_h
-#define ContactMethod_h
+#ifndef Haptics_ContactMethod_h
+#define Haptics_ContactMethod_h
 
-#include "Vec3.h"
+#include "haptics/Math/Vec3.h"
 
 #include <memory>
 

@@ -1,9 +1,9 @@
 // Compiled once for each HAPTICS_LARGEST_NUMBER_OF_PASSES, which the god-object takes instead of
 // its own; GodObject is then a macro for a name of its own, so that all fit into one program.
-#include "GodObject.cxx"
-#include "GodObjectFeel.cxx"
 #include "GodObjectMethod.h"
-#include "GodObjectMotion.cxx"
+#include "haptics/Contact/GodObject.cxx"
+#include "haptics/Contact/GodObjectMaterial.cxx"
+#include "haptics/Contact/GodObjectMotion.cxx"
 
 namespace haptics::testing
 {

@@ -1,8 +1,8 @@
-#ifndef GodObjectMethod_h
-#define GodObjectMethod_h
+#ifndef Haptics_GodObjectMethod_h
+#define Haptics_GodObjectMethod_h
 
 #include "CertifiedMethod.h"
-#include "GodObject.h"
+#include "haptics/Contact/GodObject.h"
 
 namespace haptics::testing
 {

@@ -1,7 +1,7 @@
 #include "LocatorMethod.h"
 
-#include "Facet.h"
 #include "MeshToPolyData.h"
+#include "haptics/Surface/Facet.h"
 
 namespace haptics::testing
 {

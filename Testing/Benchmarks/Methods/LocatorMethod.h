@@ -1,9 +1,9 @@
-#ifndef LocatorMethod_h
-#define LocatorMethod_h
+#ifndef Haptics_LocatorMethod_h
+#define Haptics_LocatorMethod_h
 
-#include "ActivePlanes.h"
 #include "ContactMethod.h"
-#include "TriangleSurface.h"
+#include "haptics/Contact/ActivePlanes.h"
+#include "haptics/Surface/TriangleSurface.h"
 
 #include "vtkAbstractCellLocator.h"
 #include "vtkSmartPointer.h"

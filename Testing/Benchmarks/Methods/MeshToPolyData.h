@@ -1,7 +1,7 @@
-#ifndef MeshToPolyData_h
-#define MeshToPolyData_h
+#ifndef Haptics_MeshToPolyData_h
+#define Haptics_MeshToPolyData_h
 
-#include "TriangleSurface.h"
+#include "haptics/Surface/TriangleSurface.h"
 
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"

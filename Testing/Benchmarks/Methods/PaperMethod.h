@@ -1,8 +1,8 @@
-#ifndef PaperMethod_h
-#define PaperMethod_h
+#ifndef Haptics_PaperMethod_h
+#define Haptics_PaperMethod_h
 
 #include "ContactMethod.h"
-#include "TriangleSurface.h"
+#include "haptics/Surface/TriangleSurface.h"
 
 #include <vector>
 

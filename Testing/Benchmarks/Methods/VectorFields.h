@@ -1,8 +1,8 @@
-#ifndef VectorFields_h
-#define VectorFields_h
+#ifndef Haptics_VectorFields_h
+#define Haptics_VectorFields_h
 
 #include "ContactMethod.h"
-#include "TriangleSurface.h"
+#include "haptics/Surface/TriangleSurface.h"
 
 #include "vtkImplicitPolyDataDistance.h"
 #include "vtkSmartPointer.h"

@@ -1,8 +1,8 @@
-#ifndef FalconBench_h
-#define FalconBench_h
+#ifndef Haptics_FalconBench_h
+#define Haptics_FalconBench_h
 
-#include "DeviceChannel.h"
 #include "UsbFs.h"
+#include "haptics/Devices/DeviceChannel.h"
 #include "vtkFalconHapticDevice.h"
 
 #include "vtkCallbackCommand.h"

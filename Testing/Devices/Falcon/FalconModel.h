@@ -1,7 +1,7 @@
-#ifndef FalconModel_h
-#define FalconModel_h
+#ifndef Haptics_FalconModel_h
+#define Haptics_FalconModel_h
 
-#include "FalconPacket.h"
+#include "haptics/Devices/Falcon/FalconPacket.h"
 
 #include <array>
 #include <chrono>

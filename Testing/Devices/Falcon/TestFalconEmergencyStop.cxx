@@ -1,9 +1,9 @@
 // A child process presses on a plane with a Falcon on a USB bus of its own and ends in one of many
 // ways; the last packet that the Falcon got is in memory shared with this process.
-#include "EndingSignals.h"
-#include "FalconKinematics.h"
 #include "ServoTestTools.h"
 #include "UsbFs.h"
+#include "haptics/Devices/EndingSignals.h"
+#include "haptics/Devices/Falcon/FalconKinematics.h"
 #include "vtkFalconHapticDevice.h"
 #include "vtkHapticSafety.h"
 #include "vtkHapticServo.h"

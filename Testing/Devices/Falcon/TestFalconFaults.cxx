@@ -1,6 +1,6 @@
 #include "FalconBench.h"
 
-#include "FalconKinematics.h"
+#include "haptics/Devices/Falcon/FalconKinematics.h"
 
 #include <algorithm>
 #include <atomic>

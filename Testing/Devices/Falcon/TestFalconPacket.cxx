@@ -1,4 +1,4 @@
-#include "FalconPacket.h"
+#include "haptics/Devices/Falcon/FalconPacket.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-#ifndef UsbFs_h
-#define UsbFs_h
+#ifndef Haptics_UsbFs_h
+#define Haptics_UsbFs_h
 
 #include "FalconModel.h"
 

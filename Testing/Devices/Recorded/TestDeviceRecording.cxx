@@ -1,5 +1,5 @@
-#include "DeviceRecording.h"
-#include "MonitoredChannel.h"
+#include "haptics/Devices/MonitoredChannel.h"
+#include "haptics/Devices/Recorded/DeviceRecording.h"
 #include "vtkRecordedHapticDevice.h"
 
 #include "vtkCallbackCommand.h"

@@ -1,4 +1,4 @@
-#include "SimulatedBody.h"
+#include "haptics/Devices/Simulated/SimulatedBody.h"
 
 #include <gtest/gtest.h>
 

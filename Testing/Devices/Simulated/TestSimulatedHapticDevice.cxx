@@ -1,4 +1,4 @@
-#include "DeviceChannel.h"
+#include "haptics/Devices/DeviceChannel.h"
 #include "vtkSimulatedHapticDevice.h"
 
 #include "vtkCallbackCommand.h"

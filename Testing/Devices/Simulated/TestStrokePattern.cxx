@@ -1,4 +1,4 @@
-#include "StrokePattern.h"
+#include "haptics/Devices/Simulated/StrokePattern.h"
 
 #include <gtest/gtest.h>
 

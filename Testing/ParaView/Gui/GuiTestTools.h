@@ -1,5 +1,5 @@
-#ifndef GuiTestTools_h
-#define GuiTestTools_h
+#ifndef Haptics_GuiTestTools_h
+#define Haptics_GuiTestTools_h
 
 #include "pqCoreUtilities.h"
 

@@ -1,5 +1,5 @@
-#ifndef HapticsGuiTest_h
-#define HapticsGuiTest_h
+#ifndef Haptics_HapticsGuiTest_h
+#define Haptics_HapticsGuiTest_h
 
 #include <QObject>
 

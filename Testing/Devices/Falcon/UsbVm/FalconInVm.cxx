@@ -1,8 +1,8 @@
 // The Falcon's driver against a real kernel: runs as root where vhci-hcd is loaded, in usb-vm.sh's
 // virtual machine. Never asserts time: the machine is emulated.
 
-#include "FalconTransport.h"
 #include "VhciBus.h"
+#include "haptics/Devices/Falcon/FalconTransport.h"
 
 #include <cstdio>
 #include <fstream>

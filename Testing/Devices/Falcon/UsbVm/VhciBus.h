@@ -1,5 +1,5 @@
-#ifndef VhciBus_h
-#define VhciBus_h
+#ifndef Haptics_VhciBus_h
+#define Haptics_VhciBus_h
 
 #include "FalconModel.h"
 

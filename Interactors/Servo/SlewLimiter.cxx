@@ -1,4 +1,4 @@
-#include "SlewLimiter.h"
+#include "haptics/Servo/SlewLimiter.h"
 
 #include <algorithm>
 #include <cmath>

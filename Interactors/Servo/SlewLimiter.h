@@ -1,8 +1,8 @@
-#ifndef SlewLimiter_h
-#define SlewLimiter_h
+#ifndef Haptics_SlewLimiter_h
+#define Haptics_SlewLimiter_h
 
-#include "Vec3.h"
-#include "vtkHapticsInteractorsModule.h"
+#include "haptics/Math/Vec3.h"
+#include "vtkHapticsServoModule.h"
 
 namespace haptics
 {
@@ -46,7 +46,7 @@ struct SlewRequest
 ///
 /// What surfaces do to a hand by their own changes is their work: it comes softly, and is credited.
 /// Nothing is withheld where no limit acts. Servo thread.
-class VTKHAPTICSINTERACTORS_EXPORT SlewLimiter
+class VTKHAPTICSSERVO_EXPORT SlewLimiter
 {
 public:
   /// Forgets everything.
