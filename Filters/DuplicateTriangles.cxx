@@ -14,8 +14,7 @@ Side Joined(Side a, Side b)
 }
 }
 
-std::int64_t DropDuplicateTriangles(
-  TriangleMesh& mesh, std::vector<vtkIdType>& originalCells, std::vector<Triangle>& originalCorners)
+std::int64_t DropDuplicateTriangles(TriangleMesh& mesh, std::vector<vtkIdType>& originalCells)
 {
   std::vector<Triangle>& triangles = mesh.Triangles;
   std::vector<Side>& sides = mesh.Sides;
@@ -74,10 +73,6 @@ std::int64_t DropDuplicateTriangles(
     {
       triangles[kept] = triangles[i];
       originalCells[kept] = originalCells[i];
-      if (!originalCorners.empty())
-      {
-        originalCorners[kept] = originalCorners[i];
-      }
       if (!sides.empty())
       {
         sides[kept] = sides[i];
@@ -88,7 +83,6 @@ std::int64_t DropDuplicateTriangles(
   const auto dropped = static_cast<std::int64_t>(triangles.size() - kept);
   triangles.resize(kept);
   originalCells.resize(kept);
-  originalCorners.resize(originalCorners.empty() ? 0 : kept);
   sides.resize(sides.empty() ? 0 : kept);
   return dropped;
 }

@@ -33,11 +33,9 @@ public:
   bool WorkspaceChosen = false;           ///< it was set or fitted at all
   int DeviceState = 0;
   bool Clutched = false;
-  bool ClutchMoved = false; ///< what is touched has to be published anew
   bool ClutchHeld = false;  ///< the device's button
   haptics::HapticGrip Grip;
   vtkMTimeType LandmarksShown = 0;
-  double LiftOff[3] = {};                   ///< from the hand to where it comes back [world unit]
   std::vector<haptics::TickRecord> Drained; // kept for its memory
   std::optional<haptics::TickRecord> Latest;
   haptics::SceneCell LatestCell;

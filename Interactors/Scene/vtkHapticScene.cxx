@@ -245,12 +245,7 @@ bool vtkHapticScene::ShowState()
   {
     return false;
   }
-  haptics::TickRecord latest = *this->Internal->Latest;
-  if (this->Internal->Clutched) // the hand stays where it let go
-  {
-    std::copy_n(this->HapticInterfacePoint, 3, latest.Hip.begin());
-    std::copy_n(this->GodObject, 3, latest.Position.begin());
-  }
+  const haptics::TickRecord& latest = *this->Internal->Latest;
   const int state = this->Servo->GetState();
   const bool live = state == vtkHapticServo::Running || state == vtkHapticServo::Stepping;
   const haptics::Vec3 force = live ? latest.WorldForce : haptics::Vec3{};

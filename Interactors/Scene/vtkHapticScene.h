@@ -302,8 +302,8 @@ public:
   ///@{
   /**
    * The clutch: while it is on nothing is touched, no force is asked for, and the hand in the
-   * picture stays, so that the device can be moved back into the middle of its reach. When it is
-   * let go the workspace is where the hand had left the surface. Default off.
+   * picture stays, so that the device can be moved back into the middle of its reach; a surface
+   * that moves pushes it along. When it is let go the hand goes on from there. Default off.
    */
   void SetClutched(bool clutched);
   bool GetClutched();
@@ -337,8 +337,9 @@ public:
   ///@}
 
   /**
-   * Magnifies what the device reaches about the hand's place: with a factor of 2 a movement goes
-   * twice as far in the world. False and an error where it is not finite and > 0.
+   * Magnifies what the device reaches about the god-object: with a factor of 2 a movement goes twice
+   * as far in the world. A contact stays, with its force. False and an error where it is not finite
+   * and > 0.
    */
   bool ScaleWorkspace(double factor);
 

@@ -8,13 +8,6 @@
 #include "vtkHapticServo.h"
 #include "vtkMatrix4x4.h"
 
-#include <cmath>
-
-namespace
-{
-constexpr double LiftOffHeight = 0.002; // [m], device frame
-}
-
 vtkHapticLandmarks* vtkHapticScene::GetLandmarks()
 {
   return this->Landmarks;
@@ -61,24 +54,13 @@ void vtkHapticScene::SetClutched(bool clutched)
   {
     return;
   }
-  vtkMatrix4x4* workspace = this->Workspace;
   if (clutched)
   {
-    // It comes back a little above the surface: the hand moves on meanwhile, and must not be
-    // inside by then.
-    const double height = LiftOffHeight * std::cbrt(workspace->Determinant());
-    const double* normal = this->GetProbe()->GetNormal();
-    const haptics::HapticGrip& grip = this->Internal->Grip;
-    const bool carries = grip.Surface() != haptics::HapticGrip::Nothing;
-    for (int i = 0; i < 3; ++i)
-    {
-      this->Internal->LiftOff[i] =
-        height * ((this->Touching ? normal[i] : 0.0) + (carries ? grip.Normal()[i] : 0.0));
-    }
     this->LetGo();
   }
   else
   {
+    vtkMatrix4x4* workspace = this->Workspace;
     double device[4] = { 0.0, 0.0, 0.0, 1.0 };
     this->Servo->GetDevicePosition(device);
     double world[4];
@@ -87,13 +69,12 @@ void vtkHapticScene::SetClutched(bool clutched)
     moved->DeepCopy(workspace);
     for (int i = 0; i < 3; ++i)
     {
-      const double wanted = this->GodObject[i] + this->Internal->LiftOff[i];
-      moved->SetElement(i, 3, moved->GetElement(i, 3) + wanted - world[i]);
+      moved->SetElement(i, 3, moved->GetElement(i, 3) + this->GodObject[i] - world[i]);
     }
     this->MoveWorkspace(moved);
   }
   this->Internal->Clutched = clutched;
-  this->Internal->ClutchMoved = true;
+  this->Servo->SetClutched(clutched); // after the workspace: the servo takes both in one tick
   this->PullSurfaces();
   this->Modified();
 }

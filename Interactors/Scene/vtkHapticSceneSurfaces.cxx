@@ -277,8 +277,7 @@ bool vtkHapticScene::PullSurfaces()
   {
     assembly.Pull(surfaces);
   }
-  const bool clutchMoved = std::exchange(this->Internal->ClutchMoved, false);
-  const bool changed = surfaces.Pull(settings, errors) || clutchMoved;
+  const bool changed = surfaces.Pull(settings, errors);
   haptics::HapticGrip& grip = this->Internal->Grip;
   const int lost = grip.IsLost(surfaces) ? grip.Surface() : haptics::HapticGrip::Nothing;
   if (lost != haptics::HapticGrip::Nothing)
@@ -287,13 +286,8 @@ bool vtkHapticScene::PullSurfaces()
   }
   if (changed)
   {
-    std::vector<haptics::TouchedSurface> touched;
-    if (!this->Internal->Clutched)
-    {
-      touched = surfaces.Touched();
-    }
     const std::uint64_t generation =
-      this->Servo->PublishGodObject(std::make_unique<haptics::GodObject>(std::move(touched)));
+      this->Servo->PublishGodObject(std::make_unique<haptics::GodObject>(surfaces.Touched()));
     this->Internal->Published = generation;
     grip.Published(generation);
     if (!this->Servo->IsRunning())

@@ -127,19 +127,20 @@ bool vtkHapticScene::ScaleWorkspace(double factor)
   }
   vtkNew<vtkMatrix4x4> scaled;
   scaled->DeepCopy(this->Workspace);
-  // The device's place goes to where the god-object is, so that the hand does not jump through the
-  // surface that holds it.
-  double device[4] = { 0.0, 0.0, 0.0, 1.0 };
-  this->Servo->GetDevicePosition(device);
+  // About the god-object: a displacement in the hand stays as it is, and so does its force.
+  double middle[4] = { this->GodObject[0], this->GodObject[1], this->GodObject[2], 1.0 };
+  if (!this->Internal->Latest)
+  {
+    const double device[4] = { 0.0, 0.0, 0.0, 1.0 };
+    this->Workspace->MultiplyPoint(device, middle); // nobody has been there: the device's origin
+  }
   for (int i = 0; i < 3; ++i)
   {
-    double turned = 0.0;
     for (int j = 0; j < 3; ++j)
     {
       scaled->SetElement(i, j, factor * scaled->GetElement(i, j));
-      turned += scaled->GetElement(i, j) * device[j];
     }
-    scaled->SetElement(i, 3, this->GodObject[i] - turned);
+    scaled->SetElement(i, 3, middle[i] + factor * (scaled->GetElement(i, 3) - middle[i]));
   }
   return this->MoveWorkspace(scaled);
 }

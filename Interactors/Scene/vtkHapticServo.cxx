@@ -181,7 +181,7 @@ bool vtkHapticServo::SetWorkspaceTransform(vtkMatrix4x4* deviceToWorld)
   if (transform != this->Internal->Settings.DeviceToWorld)
   {
     this->Internal->Settings.DeviceToWorld = transform;
-    this->PlaceGodObject();
+    this->Configure();
     this->Modified();
   }
   return true;
@@ -191,6 +191,21 @@ void vtkHapticServo::GetWorkspaceTransform(vtkMatrix4x4* deviceToWorld)
 {
   this->Internal->Settings.DeviceToWorld.GetMatrix(deviceToWorld->GetData());
   deviceToWorld->Modified();
+}
+
+void vtkHapticServo::SetClutched(bool clutched)
+{
+  if (this->Internal->Settings.IsClutched != clutched)
+  {
+    this->Internal->Settings.IsClutched = clutched;
+    this->Configure();
+    this->Modified();
+  }
+}
+
+bool vtkHapticServo::GetClutched()
+{
+  return this->Internal->Settings.IsClutched;
 }
 
 void vtkHapticServo::PlaceGodObject()

@@ -88,11 +88,23 @@ bool ServoCycle::Tick(double time) noexcept
     god.Object->Place(hip);
     this->Guard.StartSoftly(settings.Safety);
   }
+  else if (!settings.IsClutched &&
+    (this->WasClutched || this->DeviceToWorld != settings.DeviceToWorld))
+  {
+    if (!this->WasClutched) // else it stays on its side, whatever it has held on to
+    {
+      god.Object->Jump(hip);
+    }
+    this->Guard.NoticeJump();
+  }
   this->Placements = settings.Placements;
+  this->WasClutched = settings.IsClutched;
+  this->DeviceToWorld = settings.DeviceToWorld;
   this->IsFirst = false;
 
-  const Contact& contact =
-    this->Contacts.Touch(*god.Object, sample.Position, hip, settings.DeviceToWorld);
+  const Contact& contact = settings.IsClutched
+    ? this->Contacts.Hold(*god.Object, sample.Position, settings.DeviceToWorld)
+    : this->Contacts.Touch(*god.Object, sample.Position, hip, settings.DeviceToWorld);
   if (!IsFinite(contact.Displacement))
   {
     this->End(ServoState::InvalidForce);

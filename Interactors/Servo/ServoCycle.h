@@ -41,6 +41,7 @@ struct ServoSettings
   ForceModel Force; ///< the device's limits already applied
   SafetySettings Safety;
   std::uint64_t Placements = 0; ///< whenever it changes the god-object starts anew at the HIP
+  bool IsClutched = false;      ///< the god-object stays, wherever the device goes; no force
 };
 
 /// @brief One servo tick: position in, god-object, force out. Knows nothing of time or threads.
@@ -111,6 +112,8 @@ private:
   ContactTick Contacts;
   ForceGuard Guard;
   bool IsFirst = true;
+  bool WasClutched = false;
+  WorkspaceTransform DeviceToWorld; // of the last tick
   std::uint64_t Placements = 0;
 };
 }

@@ -1,9 +1,21 @@
 #include "SceneTestTools.h"
 
+#include "vtkActor.h"
 #include "vtkCamera.h"
+#include "vtkCubeSource.h"
+#include "vtkDoubleArray.h"
+#include "vtkMath.h"
 #include "vtkMatrix4x4.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkSphereSource.h"
 
 #include <gtest/gtest.h>
+
+#include <chrono>
+#include <functional>
+#include <thread>
 
 namespace
 {
@@ -160,5 +172,267 @@ TEST(HapticSceneWorkspace, ResetUndoesScalingAndClutching)
   for (int i = 0; i < 16; ++i)
   {
     EXPECT_EQ(hand.Scene->GetWorkspaceTransform()->GetData()[i], home->GetData()[i]) << i;
+  }
+}
+
+namespace
+{
+constexpr double Radius = 0.03;
+
+vtkSmartPointer<vtkPolyData> MakeSolidBall()
+{
+  vtkNew<vtkSphereSource> ball;
+  ball->SetRadius(Radius);
+  ball->SetThetaResolution(60);
+  ball->SetPhiResolution(60);
+  ball->Update();
+  return ball->GetOutput();
+}
+
+/// A hand with default safety, a millimetre or more deep in the top of a closed ball.
+struct PressedBall
+{
+  vtkNew<vtkSimulatedHapticDevice> Device;
+  vtkNew<vtkHapticScene> Scene;
+  double Height = 0.04;
+  double LargestStep = 0.0; ///< by which the force has grown in a tick [N]
+
+  explicit PressedBall(double depth)
+  {
+    this->Scene->SetDevice(this->Device);
+    this->Scene->AddSurface(MakeSolidBall());
+    while (this->Height > Radius - depth)
+    {
+      this->Move(-1e-4);
+    }
+    for (int i = 0; i < 150; ++i)
+    {
+      this->Move(0.0);
+    }
+    EXPECT_NEAR(this->Force(), 500.0 * depth, 0.3);
+    this->LargestStep = 0.0;
+  }
+  double Force() { return this->Scene->GetForce()[2]; }
+  void Move(double step)
+  {
+    this->Height += step;
+    const double before = this->Force();
+    this->Device->SetPosition(0.0003, 0.0002, this->Height);
+    this->Scene->Step(1);
+    this->LargestStep = std::max(this->LargestStep, this->Force() - before);
+    // Facets lie up to 0.3 % inside the ball.
+    ASSERT_GT(vtkMath::Norm(this->Scene->GetGodObject()), 0.99 * Radius);
+  }
+  void Move(double step, int ticks)
+  {
+    for (int i = 0; i < ticks; ++i)
+    {
+      this->Move(step);
+    }
+  }
+};
+
+void Set(vtkHapticScene* scene, double scale, double z)
+{
+  vtkNew<vtkMatrix4x4> matrix;
+  for (int i = 0; i < 3; ++i)
+  {
+    matrix->SetElement(i, i, scale);
+  }
+  matrix->SetElement(2, 3, z);
+  scene->SetWorkspaceTransform(matrix);
+}
+}
+
+//     o HIP after           whatever is done to the workspace, and while the hand presses on
+//    _._  god-object
+//   /   \  ball
+TEST(HapticSceneWorkspace, NoChangeOfItLetsAPressingHandIn)
+{
+  const struct
+  {
+    const char* Name;
+    std::function<void(vtkHapticScene*)> Change;
+  } changes[] = {
+    { "scaled up", [](vtkHapticScene* s) { s->ScaleWorkspace(1.25); } },
+    { "scaled down", [](vtkHapticScene* s) { s->ScaleWorkspace(0.8); } },
+    { "scaled by one", [](vtkHapticScene* s) { s->ScaleWorkspace(1.0); } },
+    { "reset", [](vtkHapticScene* s) { s->ResetWorkspace(); } },
+    { "fitted", [](vtkHapticScene* s) { s->FitWorkspace(); } },
+    { "enlarged", [](vtkHapticScene* s) { Set(s, 1.02, 0.0); } },
+    { "lowered", [](vtkHapticScene* s) { Set(s, 1.0, -0.005); } },
+    { "lowered to the middle", [](vtkHapticScene* s) { Set(s, 1.0, -Radius); } },
+    { "clutched", [](vtkHapticScene* s) { s->SetClutched(true), s->SetClutched(false); } },
+  };
+  for (const auto& change : changes)
+  {
+    for (const double speed : { 0.0, 0.001, 0.01, 0.1 })
+    {
+      SCOPED_TRACE(std::string(change.Name) + ", pressing on at " + std::to_string(speed) + " m/s");
+      PressedBall hand(0.003);
+      change.Change(hand.Scene);
+      hand.Move(-0.001 * speed, 200);
+      const double soft = 3.3 * 0.001 / 0.1;
+      if (std::string(change.Name) != "clutched") // lets go at once
+      {
+        EXPECT_LE(hand.LargestStep, std::max(soft, 500.0 * 0.001 * speed * 1.5) + 1e-9);
+      }
+      EXPECT_STREQ(hand.Scene->GetErrorMessage(), "");
+    }
+  }
+}
+
+TEST(HapticSceneWorkspace, ScalingKeepsAContactAndItsForce)
+{
+  PressedBall hand(0.003);
+  const double force = hand.Force();
+  for (const double factor : { 1.25, 1.25, 0.5, 3.0, 0.1 })
+  {
+    ASSERT_TRUE(hand.Scene->ScaleWorkspace(factor));
+    hand.Move(0.0, 20);
+    EXPECT_NEAR(hand.Force(), force, 1e-6) << factor;
+    EXPECT_TRUE(hand.Scene->GetTouching());
+  }
+  hand.Scene->ScaleWorkspace(8.0);
+  EXPECT_LE(hand.LargestStep, 1e-6);
+}
+
+// Where the device is in the air then, the hand is too, and outside where it is in a solid.
+TEST(HapticSceneWorkspace, AFreeHandGoesAlongButNotIntoASolid)
+{
+  for (const bool isInside : { false, true })
+  {
+    LedHand hand;
+    hand.Scene->AddSurface(MakeSolidBall());
+    hand.MoveTo(0.05);
+    Set(hand.Scene, 1.0, isInside ? -0.05 : -0.1); // 0.0 or, past the ball, -0.05
+    hand.Scene->Step(1);
+    EXPECT_EQ(hand.Scene->GetTouching(), isInside);
+    EXPECT_GT(vtkMath::Norm(hand.Scene->GetGodObject()), 0.99 * Radius);
+    EXPECT_NEAR(hand.GodObjectHeight(), isInside ? 0.0 : -0.05, 0.002);
+  }
+}
+
+//   ######  a slot of a millimetre between two blocks: clutched there, moved on and let go
+//      o
+//   ######
+TEST(HapticSceneWorkspace, TheClutchReleasesInANarrowSlotOutsideOfBothBlocks)
+{
+  for (const double way : { -0.01, -0.002, 0.0, 0.002, 0.01 })
+  {
+    LedHand hand;
+    for (const double z : { -0.01, 0.011 })
+    {
+      vtkNew<vtkCubeSource> block;
+      block->SetXLength(0.04);
+      block->SetYLength(0.04);
+      block->SetZLength(0.02);
+      block->SetCenter(0.0, 0.0, z);
+      block->Update();
+      hand.Scene->AddSurface(block->GetOutput());
+    }
+    const auto go = [&](double x, double z)
+    {
+      hand.Device->SetPosition(x, 0.002, z);
+      hand.Scene->Step(1);
+    };
+    for (int i = 0; i <= 100; ++i)
+    {
+      go(0.03 - 0.0003 * i, 0.0005);
+    }
+    go(0.0, -0.0005);
+    ASSERT_TRUE(hand.Scene->GetTouching());
+    hand.Scene->SetClutched(true);
+    for (int i = 0; i < 30; ++i)
+    {
+      go(0.0, -0.0005 + way);
+    }
+    hand.Scene->SetClutched(false);
+    for (int i = 0; i < 100; ++i)
+    {
+      go(0.0, -0.0005 + way - 1e-5 * i);
+      ASSERT_GT(hand.GodObjectHeight(), 0.0);
+      ASSERT_LT(hand.GodObjectHeight(), 0.001);
+    }
+    EXPECT_NEAR(hand.Scene->GetForce()[2], 500.0 * 99e-5, 2e-3) << "pressed again, from there";
+  }
+}
+
+TEST(HapticSceneWorkspace, SurfacesThatMovePushAClutchedHandAlong)
+{
+  LedHand hand;
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(MakeSolidBall());
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  hand.Scene->AddSurface(actor);
+  hand.MoveTo(0.05);
+  hand.Scene->SetClutched(true);
+  for (int i = 1; i <= 300; ++i)
+  {
+    actor->SetPosition(0.01, 0.02, 0.0001 * i);
+    hand.Scene->Step(1);
+    ASSERT_FALSE(hand.Scene->GetTouching());
+    ASSERT_EQ(hand.Scene->GetForce()[2], 0.0);
+  }
+  hand.Scene->Step(100);
+  EXPECT_NEAR(hand.GodObjectHeight(), 0.03 + Radius, 1e-3);
+  hand.Scene->SetClutched(false);
+  hand.Scene->Step(10);
+  EXPECT_NEAR(hand.GodObjectHeight(), 0.03 + Radius, 1e-3) << "and it is not inside after that";
+}
+
+// A running servo: the hand sinks at 0.3 m/s while the clutch is let go or the workspace scaled.
+TEST(HapticSceneWorkspace, ARunningHandThatSinksIsNotLetIn)
+{
+  using Change = std::function<void(vtkHapticScene*)>;
+  const Change changes[] = {
+    [](vtkHapticScene* s) { s->SetClutched(false); },
+    [](vtkHapticScene* s) { s->SetClutched(false), s->ScaleWorkspace(1.25); },
+    [](vtkHapticScene* s) { s->ResetWorkspace(); },
+  };
+  for (const Change& change : changes)
+  {
+    for (int run = 0; run < 4; ++run)
+    {
+      vtkNew<vtkSimulatedHapticDevice> device;
+      vtkNew<vtkHapticScene> scene;
+      scene->SetDevice(device);
+      scene->AddSurface(MakeSolidBall());
+      vtkNew<vtkPolyData> path;
+      vtkNew<vtkPoints> points;
+      vtkNew<vtkDoubleArray> times;
+      times->SetName("Time");
+      const double way[][2] = { { 0.0, 0.04 }, { 0.2, 0.029 }, { 0.4, 0.029 }, { 0.9, -0.12 } };
+      for (const auto& corner : way)
+      {
+        times->InsertNextValue(corner[0]);
+        points->InsertNextPoint(0.0003, 0.0002, corner[1]);
+      }
+      path->SetPoints(points);
+      path->GetPointData()->AddArray(times);
+      device->SetPath(path);
+      device->SetMotionToPolyline();
+      ASSERT_TRUE(scene->Engage()) << scene->GetErrorMessage();
+      const auto runUntil = [&](double time)
+      {
+        while (scene->GetServo()->GetTime() < time && scene->IsEngaged())
+        {
+          scene->Update();
+          std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+      };
+      runUntil(0.3);
+      scene->SetClutched(true);
+      runUntil(0.45 + 0.003 * run);
+      change(scene);
+      for (int i = 0; i < 6; ++i)
+      {
+        runUntil(scene->GetServo()->GetTime() + 0.01);
+        scene->Update();
+        EXPECT_GT(vtkMath::Norm(scene->GetGodObject()), 0.99 * Radius);
+      }
+      scene->Release();
+    }
   }
 }

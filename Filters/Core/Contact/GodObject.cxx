@@ -124,16 +124,9 @@ bool GodObject::Implementation::Walk(const Vector& goal)
 bool GodObject::Implementation::FindFirstHit(
   const Vector& goal, const ActivePlanes& planes, FacetHit& hit)
 {
+  hit = FacetHit();
   for (std::size_t i = this->First; i < this->Last; ++i)
   {
-    if (i == this->First)
-    {
-      if (!this->Sets[i].FindFirstHit(goal, planes, this->Budget, hit))
-      {
-        return false;
-      }
-      continue;
-    }
     FacetHit other;
     if (!this->Sets[i].FindFirstHit(goal, planes, this->Budget, other))
     {
@@ -208,10 +201,14 @@ bool GodObject::Implementation::Pass(const Vector& hip)
     {
       return false;
     }
-    // One that was met beyond its facet's edge, which is under the new one, is in nobody's way.
-    this->Active.Keep([&](const ActivePlane& plane)
-      { return !this->Sets[plane.Facet.Surface].IsPassedOver(plane, this->Position, hit.Plane); });
     this->Active.Add(hit.Plane);
+    // One that was met beyond its facet's edge, which is under the new one, is in nobody's way.
+    this->Active.Keep(
+      [&](const ActivePlane& plane)
+      {
+        return plane.Facet == hit.Plane.Facet ||
+          !this->Sets[plane.Facet.Surface].IsPassedOver(plane, this->Position, hit.Plane);
+      });
     goal = this->Active.Nearest(this->Position, hip);
   }
   return false;
@@ -379,6 +376,31 @@ const Contact& GodObject::Update(const Vec3& hip) noexcept
   }
   god.UpdateMaterial();
   return result;
+}
+
+void GodObject::Jump(const Vec3& hip) noexcept
+{
+  Implementation& god = *this->Internal;
+  const bool isFree = god.Result.Status == UpdateStatus::Free;
+  if (!god.IsPlaced || (isFree && !god.IsSplit && god.IsOnSameSide(ToVector(hip) - god.Origin)))
+  {
+    this->Place(hip);
+  }
+}
+
+const Contact& GodObject::Hold() noexcept
+{
+  Implementation& god = *this->Internal;
+  const Vec3 here = ToVec3(god.Position + god.Origin);
+  if (god.IsSplit || !god.IsPlaced)
+  {
+    return this->Update(here);
+  }
+  god.Result = {};
+  god.Result.Hip = here;
+  god.Result.Position = here;
+  god.Carried = Vector(0.0);
+  return god.Result;
 }
 
 const Contact& GodObject::Current() const noexcept

@@ -106,6 +106,12 @@ public:
 
   /// Puts the god-object at `hip` as in free space. Servo thread. [world]
   void Place(const Vec3& hip) noexcept;
+  /// The HIP has been put elsewhere, by another workspace. One that touches stays where it is, on its
+  /// side, and the next Update() takes it towards the HIP; one that is free goes there at once, unless
+  /// that is in a solid. Servo thread; as much work as an Update().
+  void Jump(const Vec3& hip) noexcept;
+  /// Stays where it is, touching nothing, as if the HIP were there. Servo thread.
+  const Contact& Hold() noexcept;
   /// Starts where another god-object stands, when the surfaces have changed. One that is the same,
   /// or deforms on from where it is, has it where it was. One that takes the place of another
   /// (TouchedSurface::Identity) and has gone over it has it on the nearest place of the side that

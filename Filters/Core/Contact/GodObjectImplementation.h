@@ -40,6 +40,7 @@ public:
   void UpdateMaterial();
   void StayInContact(const Implementation& previous);
   void Settle(const Implementation& previous);
+  bool IsOnSameSide(const Vector& other);
   bool FeelsAs(const Implementation& previous) const;
 
   std::vector<TouchedSurface> Surfaces;

@@ -129,6 +129,14 @@ void GodObject::Implementation::Settle(const Implementation& previous)
   }
 }
 
+/// Whether what encloses space encloses another place as it does the god-object's.
+bool GodObject::Implementation::IsOnSameSide(const Vector& other)
+{
+  this->Budget.Triangles = LargestNumberOfTriangles;
+  return std::all_of(this->Sets.begin(), this->Sets.begin() + this->Felt,
+    [&](WorkingSet& set) { return set.IsOnSameSide(other, this->Budget); });
+}
+
 bool GodObject::Implementation::HasArrived() const
 {
   return std::all_of(this->Deforming.begin(), this->Deforming.end(),

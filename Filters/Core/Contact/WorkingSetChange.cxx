@@ -65,6 +65,20 @@ bool WorkingSet::Succeed(
   return !this->PlaceOff(nearest.Point, outwards, nullptr, budget);
 }
 
+bool WorkingSet::IsOnSameSide(const Vector& place, WorkBudget& budget)
+{
+  if (!HasInside(*this->Touched))
+  {
+    return true;
+  }
+  SurfaceSide side = this->Sides(budget);
+  Enclosed here;
+  Enclosed there;
+  return side.CountEnclosing(this->Position, here) &&
+    side.CountEnclosing(this->ToSurface.PointToLocal(place), there) && here.Front == there.Front &&
+    here.Both == there.Both;
+}
+
 /// Puts the god-object off the nearest point of what encloses it otherwise than before, on the side
 /// that it had. False, with nothing changed, where that does not come about.
 bool WorkingSet::PlaceBack(const Enclosed& before, const Enclosed& now, WorkBudget& budget)

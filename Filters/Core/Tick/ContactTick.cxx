@@ -7,6 +7,18 @@ namespace haptics
 const Contact& ContactTick::Touch(GodObject& god, const Vec3& devicePosition, const Vec3& hip,
   const WorkspaceTransform& deviceToWorld) noexcept
 {
+  return this->Take(god.Update(hip), devicePosition, deviceToWorld);
+}
+
+const Contact& ContactTick::Hold(
+  GodObject& god, const Vec3& devicePosition, const WorkspaceTransform& deviceToWorld) noexcept
+{
+  return this->Take(god.Hold(), devicePosition, deviceToWorld);
+}
+
+const Contact& ContactTick::Take(const Contact& contact, const Vec3& devicePosition,
+  const WorkspaceTransform& deviceToWorld) noexcept
+{
   if (!this->IsFirst)
   {
     const Vector step = ToVector(devicePosition) - ToVector(this->InDevice.Hip);
@@ -14,7 +26,6 @@ const Contact& ContactTick::Touch(GodObject& god, const Vec3& devicePosition, co
   }
   this->IsFirst = false;
   this->DeviceToWorld = deviceToWorld;
-  const Contact& contact = god.Update(hip);
   this->InDevice = contact;
   this->InDevice.Hip = devicePosition;
   this->InDevice.Displacement = deviceToWorld.VectorToDevice(contact.Displacement);

@@ -31,6 +31,10 @@ public:
   const Contact& Touch(GodObject& god, const Vec3& devicePosition, const Vec3& hip,
     const WorkspaceTransform& deviceToWorld) noexcept;
 
+  /// The same of a god-object that stays where it is, with a device that may be anywhere.
+  const Contact& Hold(GodObject& god, const Vec3& devicePosition,
+    const WorkspaceTransform& deviceToWorld) noexcept;
+
   /// Writes what became of that contact: all of a record but Tick, Time, Buttons, Generation and
   /// Limits. `force`: the one that is held until the next tick, device frame [N]; `law`: what it
   /// was made by.
@@ -38,6 +42,9 @@ public:
     const GodObject& god, const Vec3& force, const SurfaceForce& law, TickRecord& record) noexcept;
 
 private:
+  const Contact& Take(const Contact& contact, const Vec3& devicePosition,
+    const WorkspaceTransform& deviceToWorld) noexcept;
+
   Contact InDevice{};
   Vec3 Force{}; ///< held since the last tick [N]
   double Work = 0.0;
