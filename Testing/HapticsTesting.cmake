@@ -98,6 +98,20 @@ function (haptics_add_consumer_test)
         "-DCMAKE_CXX_FLAGS=${CMAKE_CXX_FLAGS}"
         "-DPython3_EXECUTABLE=${Python3_EXECUTABLE}"
       --test-command consumer)
+  add_test(NAME Consumer.DeviceTemplate
+    COMMAND "${CMAKE_CTEST_COMMAND}"
+      --build-and-test "${prefix}/${CMAKE_INSTALL_DATAROOTDIR}/vtkhaptics/device"
+                       "${CMAKE_BINARY_DIR}/Testing/Consumer/device"
+      --build-generator "${CMAKE_GENERATOR}"
+      --build-options
+        "-DVTKHaptics_ROOT=${prefix}"
+        "-DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE}"
+        "-DCMAKE_CXX_FLAGS=${CMAKE_CXX_FLAGS} -Wall -Wextra"
+        "-DPython3_EXECUTABLE=${Python3_EXECUTABLE}"
+      --test-command try_pen)
+  set_tests_properties(Consumer.DeviceTemplate PROPERTIES
+    FIXTURES_REQUIRED haptics_install
+    LABELS            "haptics")
   set_tests_properties(Consumer.Install PROPERTIES FIXTURES_SETUP haptics_install)
   set_tests_properties(Consumer.BuildAndRun PROPERTIES FIXTURES_REQUIRED haptics_install)
   set_tests_properties(Consumer.Install Consumer.BuildAndRun PROPERTIES LABELS "haptics")
