@@ -70,6 +70,10 @@ public:
   /// Notice what happened on the servo thread: a device lost there becomes Faulted here. Cheap.
   virtual void Update();
 
+  /// Whether the device is open with other settings than it has now, so that it has to be closed and
+  /// opened for them. A scene does so before it engages or steps. Here false.
+  virtual bool HasChanged() { return false; }
+
   /// True from a successful Open() to Close() or a fault.
   bool IsOpen() const { return this->State == Ready; }
   ///@{

@@ -190,7 +190,16 @@ bool vtkSimulatedHapticDevice::Open()
   this->Simulated = std::make_shared<SimulatedChannel>(this->Motion == Manual, std::move(path),
     haptics::DeviceSample{ this->ManualPosition, this->ManualButtons }, std::move(body));
   this->BecomeReady(this->Simulated);
+  this->OpenTime.Modified(); // the last: opening has changed the state
   return true;
+}
+
+bool vtkSimulatedHapticDevice::HasChanged()
+{
+  const bool hasPath = this->Path && (this->Motion == Polyline || this->Motion == Spline);
+  return this->IsOpen() &&
+    (this->GetMTime() > this->OpenTime.GetMTime() ||
+      (hasPath && this->Path->GetMTime() > this->OpenTime.GetMTime()));
 }
 
 void vtkSimulatedHapticDevice::SetPreset(int preset)

@@ -22,7 +22,8 @@
  * At the end the hand stays at the last point. With Loop it goes straight back to the first point
  * at the path's mean speed and starts over.
  *
- * Motion, path, stroke and body are read by Open(); a change later takes effect at the next Open().
+ * Motion, path, stroke and body are read by Open(); a change later takes effect at the next Open(),
+ * which is the next Step() or Engage() of a scene: to stroke again, set another path and step.
  * SetPosition() and SetButtons() act at once. A path that cannot be followed and a setting that is
  * no number make Open() fail, with the cause in GetErrorMessage(), and the device stays Closed.
  *
@@ -32,6 +33,8 @@
 #define Haptics_vtkSimulatedHapticDevice_h
 
 #include "vtkHapticDevice.h"
+
+#include "vtkTimeStamp.h"
 
 #include <array>
 #include <string>
@@ -73,6 +76,7 @@ public:
 
   bool Open() override;
   void Close() override;
+  bool HasChanged() override;
 
   ///@{
   /// What moves the hand, a MotionType. Default Manual.
@@ -257,6 +261,7 @@ private:
   double Jitter = 0.0;
   double HandStiffness = 100.0;
   double HandDamping = 2.0;
+  vtkTimeStamp OpenTime; // of the settings
   std::array<double, 3> ManualPosition{};
   unsigned int ManualButtons = 0;
   std::shared_ptr<SimulatedChannel> Simulated;

@@ -29,7 +29,16 @@ vtkHapticScene::~vtkHapticScene()
 void vtkHapticScene::Fail(const std::string& message)
 {
   this->ErrorMessage = message;
+  this->IsMessageOfSurface = false;
   vtkErrorMacro(<< message);
+}
+
+void vtkHapticScene::ForgetMessage()
+{
+  if (!this->IsMessageOfSurface)
+  {
+    this->ErrorMessage.clear();
+  }
 }
 
 void vtkHapticScene::SetDevice(vtkHapticDevice* device)
@@ -63,6 +72,7 @@ bool vtkHapticScene::Engage()
   {
     return true;
   }
+  this->ForgetMessage();
   vtkHapticDevice* device = this->GetDevice();
   if (!device)
   {
@@ -88,6 +98,10 @@ bool vtkHapticScene::Engage()
 
 bool vtkHapticScene::OpenDevice(vtkHapticDevice* device)
 {
+  if (device->HasChanged())
+  {
+    device->Close();
+  }
   if (device->IsOpen() || device->Open())
   {
     return true;
@@ -125,13 +139,25 @@ bool vtkHapticScene::Update()
 
 int vtkHapticScene::Step(int n)
 {
+  this->ForgetMessage();
+  if (this->Engaged)
+  {
+    this->Fail("Step() is for virtual time, but the hand is engaged in real time. Call Release() "
+               "first.");
+    return 0;
+  }
   if (n < 1)
   {
     this->Fail("Step(" + std::to_string(n) + ") does nothing. Give 1 or more ticks.");
     return 0;
   }
   vtkHapticDevice* device = this->GetDevice();
-  if (device && !this->Engaged && !this->OpenDevice(device))
+  if (!device)
+  {
+    this->Fail("There is no device to step. Call SetDevice() first.");
+    return 0;
+  }
+  if (!this->OpenDevice(device))
   {
     return 0;
   }

@@ -227,7 +227,8 @@ public:
 
   ///@{
   /**
-   * Starts and stops the servo thread; the device is opened where it is not. Engage() returns
+   * Starts and stops the servo thread; the device is opened where it is not, and opened again where
+   * its settings have changed since (vtkHapticDevice::HasChanged()). Engage() returns
    * whether it runs; where not, GetErrorMessage() tells why. Release() asks for zero force and
    * takes in the last ticks; the device stays open.
    */
@@ -249,7 +250,10 @@ public:
 
   /**
    * Runs ticks in virtual time on this thread, for scripts and tests, then does what Update()
-   * does. Returns the ticks done; 0 and an error while engaged, without a device, or n < 1.
+   * does. Returns the ticks done; 0 and an error while engaged, without a device, or n < 1. A device
+   * that is not open, or whose path or other settings have changed since it was
+   * (vtkHapticDevice::HasChanged()), is opened first, and begins at time 0: to stroke again with
+   * another path, set it and step.
    */
   int Step(int n);
 
@@ -384,7 +388,11 @@ public:
   vtkHapticOverlay* GetOverlay();
   /** The servo: rate, statistics, priority. Its device and surfaces are this scene's business. */
   vtkHapticServo* GetServo();
-  /** What went wrong last, for people; empty where nothing has. */
+  /**
+   * What went wrong last, for people; empty where nothing has. A call that can fail (Engage(), Step(),
+   * FitWorkspace(), Grip() and so on) begins with none, so that it is empty after one that succeeds;
+   * but what was wrong with a surface stays until something else is.
+   */
   const char* GetErrorMessage() { return this->ErrorMessage.c_str(); }
 
 protected:
@@ -399,6 +407,7 @@ private:
   std::unique_ptr<Internals> Internal;
 
   void Fail(const std::string& message);
+  void ForgetMessage(); // unless it is of a surface
   bool OpenDevice(vtkHapticDevice* device);
   bool PullSurfaces();
   void FinishBuilds();
@@ -427,6 +436,7 @@ private:
   int ClutchButton = 1;
   int GripButton = 2;
   std::string ErrorMessage;
+  bool IsMessageOfSurface = false;
 
   double HapticInterfacePoint[3] = { 0.0, 0.0, 0.0 };
   double GodObject[3] = { 0.0, 0.0, 0.0 };

@@ -21,6 +21,7 @@ int vtkHapticScene::GetGrippedSurface()
 
 bool vtkHapticScene::Grip()
 {
+  this->ForgetMessage();
   if (!this->Touching)
   {
     this->Fail("A grip needs a contact, and nothing is touched. Touch a surface first.");
@@ -31,6 +32,7 @@ bool vtkHapticScene::Grip()
 
 bool vtkHapticScene::GripSurface(int id)
 {
+  this->ForgetMessage();
   this->PullSurfaces(); // it may have been hidden meanwhile
   haptics::HapticGrip& grip = this->Internal->Grip;
   const haptics::HapticSurface* surface = this->Internal->Surfaces.Find(id);

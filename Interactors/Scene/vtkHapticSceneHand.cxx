@@ -15,6 +15,7 @@ vtkHapticLandmarks* vtkHapticScene::GetLandmarks()
 
 int vtkHapticScene::DropLandmark()
 {
+  this->ForgetMessage();
   if (!this->Touching)
   {
     this->Fail("A landmark needs a contact, and nothing is touched. Touch a surface first.");

@@ -301,6 +301,7 @@ bool vtkHapticScene::PullSurfaces()
   for (const std::string& error : errors)
   {
     this->Fail(error);
+    this->IsMessageOfSurface = true;
     this->InvokeEvent(vtkHapticScene::SurfaceErrorEvent);
   }
   if (lost != haptics::HapticGrip::Nothing)

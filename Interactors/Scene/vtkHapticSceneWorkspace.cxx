@@ -15,6 +15,7 @@
 
 bool vtkHapticScene::SetWorkspaceTransform(vtkMatrix4x4* deviceToWorld)
 {
+  this->ForgetMessage();
   if (!deviceToWorld)
   {
     this->Fail("There is no matrix to take as the workspace transform. Give one.");
@@ -61,6 +62,7 @@ void vtkHapticScene::ResetWorkspace()
 
 bool vtkHapticScene::FitWorkspace(vtkCamera* camera)
 {
+  this->ForgetMessage();
   this->PullSurfaces();
   vtkBoundingBox box;
   for (const auto& surface : this->Internal->Surfaces.All())
@@ -80,6 +82,7 @@ bool vtkHapticScene::FitWorkspace(vtkCamera* camera)
 
 bool vtkHapticScene::FitWorkspace(const double bounds[6], vtkCamera* camera)
 {
+  this->ForgetMessage();
   vtkHapticDevice* device = this->GetDevice();
   if (!device)
   {
@@ -119,6 +122,7 @@ bool vtkHapticScene::EngageInView(vtkCamera* camera)
 
 bool vtkHapticScene::ScaleWorkspace(double factor)
 {
+  this->ForgetMessage();
   if (!std::isfinite(factor) || !(factor > 0.0))
   {
     this->Fail("The workspace cannot be scaled by " + std::to_string(factor) +

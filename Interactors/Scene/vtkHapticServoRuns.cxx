@@ -129,6 +129,7 @@ void vtkHapticServo::Stop()
 
 int vtkHapticServo::Step(int n)
 {
+  this->ErrorMessage.clear();
   if (this->IsRunning())
   {
     this->Fail("The servo is running on its own thread. Call Stop() before Step().");
@@ -139,7 +140,11 @@ int vtkHapticServo::Step(int n)
     this->Fail("The number of steps must not be below 0, but is " + std::to_string(n) + ".");
     return 0;
   }
-  if (this->Internal->Cycle.GetState() != haptics::ServoState::Stepping)
+  // A device that was opened again has another channel, and begins anew.
+  const std::shared_ptr<haptics::DeviceChannel> channelNow =
+    this->Device ? this->Device->GetChannel() : nullptr;
+  const bool isOpenedAgain = channelNow && channelNow != this->Internal->Claimed;
+  if (this->Internal->Cycle.GetState() != haptics::ServoState::Stepping || isOpenedAgain)
   {
     if (!this->Begin(Stepping))
     {

@@ -280,3 +280,76 @@ TEST(HapticScene, ADeviceThatGoesAwayReleasesTheSceneAndSaysSo)
   EXPECT_STRNE(hand.Scene->GetErrorMessage(), "");
   EXPECT_EQ(hand.Scene->GetForce()[2], 0.0);
 }
+
+/// A straight way down to a height, 100 mm a second.
+vtkSmartPointer<vtkPolyData> MakeWayDown(double x, double height)
+{
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(x, 0.0, 0.01);
+  points->InsertNextPoint(x, 0.0, height);
+  auto way = vtkSmartPointer<vtkPolyData>::New();
+  way->SetPoints(points);
+  return way;
+}
+
+TEST(HapticScene, AnotherPathIsFollowedFromTheNextStepOn)
+{
+  LedHand hand;
+  hand.Scene->AddSurface(MakeTable(0.0));
+  hand.Device->SetMotionToPolyline();
+  hand.Device->SetSpeed(0.1);
+  hand.Scene->StartRecording();
+  for (const double depth : { 0.001, 0.002, 0.0005 })
+  {
+    hand.Device->SetPath(MakeWayDown(depth, -depth));
+    EXPECT_EQ(hand.Scene->Step(300), 300) << hand.Scene->GetErrorMessage();
+    EXPECT_NEAR(hand.Scene->GetHapticInterfacePoint()[0], depth, 1e-9) << "it follows the new one";
+    EXPECT_NEAR(hand.Scene->GetForce()[2], 500.0 * depth, 500.0 * Clearance);
+    EXPECT_NEAR(hand.Scene->GetServo()->GetTime(), 0.299, 1e-9) << "from its start";
+  }
+  EXPECT_EQ(hand.Scene->GetTrace()->GetNumberOfPoints(), 900);
+
+  vtkPolyData* path = hand.Device->GetPath(); // changed in place
+  path->GetPoints()->SetPoint(1, 0.0005, 0.0, -0.001);
+  path->GetPoints()->Modified();
+  EXPECT_EQ(hand.Scene->Step(300), 300);
+  EXPECT_NEAR(hand.Scene->GetForce()[2], 500.0 * 0.001, 500.0 * Clearance);
+  EXPECT_EQ(hand.Scene->Step(1), 1);
+  EXPECT_NEAR(hand.Scene->GetServo()->GetTime(), 0.3, 1e-9) << "nothing has changed: it goes on";
+}
+
+TEST(HapticScene, ADeviceThatWasClosedAndOpenedIsSteppedOn)
+{
+  LedHand hand;
+  hand.Scene->AddSurface(MakeTable(0.0));
+  hand.MoveTo(0.01);
+  hand.Device->Close();
+  ASSERT_TRUE(hand.Device->Open());
+  EXPECT_EQ(hand.Scene->Step(10), 10) << hand.Scene->GetErrorMessage();
+  hand.Device->Close();
+  EXPECT_EQ(hand.Scene->Step(10), 10) << "the scene opens it";
+  EXPECT_STREQ(hand.Scene->GetErrorMessage(), "");
+}
+
+TEST(HapticScene, AMessageIsGoneAfterASuccess)
+{
+  vtkNew<vtkHapticScene> scene;
+  EventCounter errors(scene, vtkCommand::ErrorEvent);
+  EXPECT_FALSE(scene->Engage());
+  EXPECT_EQ(scene->Step(1), 0);
+  EXPECT_FALSE(scene->FitWorkspace());
+  EXPECT_EQ(errors.Count, 3);
+  EXPECT_STRNE(scene->GetErrorMessage(), "");
+  vtkNew<vtkSimulatedHapticDevice> device;
+  scene->SetDevice(device);
+  EXPECT_EQ(scene->Step(1), 1);
+  EXPECT_STREQ(scene->GetErrorMessage(), "");
+  EXPECT_EQ(scene->Step(0), 0);
+  EXPECT_STRNE(scene->GetErrorMessage(), "");
+  EXPECT_TRUE(scene->Engage());
+  EXPECT_STREQ(scene->GetErrorMessage(), "");
+  EXPECT_EQ(scene->Step(1), 0);
+  EXPECT_NE(std::string(scene->GetErrorMessage()).find("Release()"), std::string::npos)
+    << "what helps is a method of the object that was called: " << scene->GetErrorMessage();
+  scene->Release();
+}
