@@ -14,7 +14,8 @@ Side Joined(Side a, Side b)
 }
 }
 
-std::int64_t DropDuplicateTriangles(TriangleMesh& mesh, std::vector<vtkIdType>& originalCells)
+std::int64_t DropDuplicateTriangles(
+  TriangleMesh& mesh, std::vector<vtkIdType>& originalCells, std::vector<Triangle>& originalCorners)
 {
   std::vector<Triangle>& triangles = mesh.Triangles;
   std::vector<Side>& sides = mesh.Sides;
@@ -73,6 +74,10 @@ std::int64_t DropDuplicateTriangles(TriangleMesh& mesh, std::vector<vtkIdType>& 
     {
       triangles[kept] = triangles[i];
       originalCells[kept] = originalCells[i];
+      if (!originalCorners.empty())
+      {
+        originalCorners[kept] = originalCorners[i];
+      }
       if (!sides.empty())
       {
         sides[kept] = sides[i];
@@ -83,6 +88,7 @@ std::int64_t DropDuplicateTriangles(TriangleMesh& mesh, std::vector<vtkIdType>& 
   const auto dropped = static_cast<std::int64_t>(triangles.size() - kept);
   triangles.resize(kept);
   originalCells.resize(kept);
+  originalCorners.resize(originalCorners.empty() ? 0 : kept);
   sides.resize(sides.empty() ? 0 : kept);
   return dropped;
 }

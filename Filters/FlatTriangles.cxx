@@ -96,9 +96,12 @@ void PutMiddleSecond(const std::vector<Vec3>& points, Triangle& t)
 }
 }
 
-void CloseFlatTriangles(const std::vector<Vec3>& points, std::vector<Triangle> flat,
-  std::vector<Triangle>& triangles, std::vector<vtkIdType>& originalCells)
+void CloseFlatTriangles(
+  const std::vector<Vec3>& points, std::vector<Triangle> flat, CleanedMesh& cleaned)
 {
+  std::vector<Triangle>& triangles = cleaned.Mesh.Triangles;
+  std::vector<vtkIdType>& originalCells = cleaned.OriginalCell;
+  std::vector<Triangle>& corners = cleaned.OriginalCorners;
   EdgeMap flatEdges(flat, points.size());
   for (const Triangle& t : flat)
   {
@@ -123,7 +126,8 @@ void CloseFlatTriangles(const std::vector<Vec3>& points, std::vector<Triangle> f
       return false;
     }
     Triangle facet = triangles[index];
-    std::rotate(facet.begin(), std::find(facet.begin(), facet.end(), t[0]), facet.end());
+    const auto turn = std::find(facet.begin(), facet.end(), t[0]) - facet.begin();
+    std::rotate(facet.begin(), facet.begin() + turn, facet.end());
     const Triangle first{ t[0], t[1], facet[2] };
     const Triangle second{ t[1], t[2], facet[2] };
     if (!HasArea(points[first[0]], points[first[1]], points[first[2]]) ||
@@ -136,6 +140,14 @@ void CloseFlatTriangles(const std::vector<Vec3>& points, std::vector<Triangle> f
     edges.Add(first, index);
     edges.Add(second, static_cast<std::int32_t>(triangles.size()));
     triangles.push_back(second);
+    if (!corners.empty())
+    {
+      Triangle own = corners[index];
+      std::rotate(own.begin(), own.begin() + turn, own.end());
+      const auto middle = static_cast<std::int32_t>(cleaned.OriginalPoint[t[1]]);
+      corners[index] = { own[0], middle, own[2] };
+      corners.push_back({ middle, own[1], own[2] });
+    }
     originalCells.push_back(originalCells[index]);
     return true;
   };

@@ -1,9 +1,7 @@
 #ifndef Haptics_FlatTriangles_h
 #define Haptics_FlatTriangles_h
 
-#include "haptics/Surface/TriangleSurface.h"
-
-#include "vtkType.h"
+#include "haptics/Filters/SurfaceCleaner.h"
 
 #include <vector>
 
@@ -22,9 +20,10 @@ namespace haptics
 /// the facet takes the corner in and becomes two.
 ///
 /// `flat`: triangles without area but with three different corners, oriented as in the surface. One
-/// that joins nothing changes nothing. `points`: where the corners are, in any frame.
-void CloseFlatTriangles(const std::vector<Vec3>& points, std::vector<Triangle> flat,
-  std::vector<Triangle>& triangles, std::vector<vtkIdType>& originalCells);
+/// that joins nothing changes nothing. `points`: where the corners are, in any frame. The corner
+/// that a facet takes in has the values of the point that it stands for.
+void CloseFlatTriangles(
+  const std::vector<Vec3>& points, std::vector<Triangle> flat, CleanedMesh& cleaned);
 }
 
 #endif

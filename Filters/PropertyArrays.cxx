@@ -110,7 +110,7 @@ void RaiseStaticFriction(PropertyValues& values, const TriangleSurface& surface)
   const auto& triangles = surface.Triangles();
   for (std::size_t i = 0; i < triangles.size(); ++i)
   {
-    for (const std::int32_t corner : triangles[i])
+    for (const std::int32_t corner : values.CornersOf(surface, i))
     {
       const double least = slide.Values.empty()
         ? slide.Constant

@@ -25,6 +25,13 @@ namespace
 constexpr vtkIdType CellsPerProgress = 1 << 16;
 constexpr std::int32_t Unused = -1;
 
+/// Of ids that CheckSize() has found to be small enough.
+Triangle ToTriangle(vtkIdType a, vtkIdType b, vtkIdType c)
+{
+  return { static_cast<std::int32_t>(a), static_cast<std::int32_t>(b),
+    static_cast<std::int32_t>(c) };
+}
+
 class Cleaner
 {
 public:
@@ -51,7 +58,7 @@ private:
   bool MergePoints();
   void AddPolygon(vtkIdType cell, vtkIdType size, const vtkIdType* points);
   void AddStrip(vtkIdType cell, vtkIdType size, const vtkIdType* points);
-  void AddTriangle(vtkIdType cell, const Triangle& triangle);
+  void AddTriangle(vtkIdType cell, const Triangle& points);
   bool Triangulate();
   void DropUnusedPoints();
   bool Report(double fraction);
@@ -74,7 +81,7 @@ private:
   std::vector<Vec3> Local;          // kept points relative to Origin
   std::vector<Triangle> Flat;       // dropped for lack of area, but with three different corners
   PolygonSplitter Splitter;
-  std::vector<std::int32_t> Outline;
+  std::vector<std::int32_t> Outline; // input points
   std::vector<Vec3> Corners;
 };
 
@@ -258,8 +265,11 @@ bool Cleaner::MergePoints()
   return true;
 }
 
-void Cleaner::AddTriangle(vtkIdType cell, const Triangle& triangle)
+/// Adds the triangle of three input points.
+void Cleaner::AddTriangle(vtkIdType cell, const Triangle& points)
 {
+  const Triangle triangle{ this->Merged[points[0]], this->Merged[points[1]],
+    this->Merged[points[2]] };
   if (!HasArea(this->Local[triangle[0]], this->Local[triangle[1]], this->Local[triangle[2]]))
   {
     ++this->Cleaned.Report.DegenerateTriangles;
@@ -271,26 +281,31 @@ void Cleaner::AddTriangle(vtkIdType cell, const Triangle& triangle)
   }
   this->Cleaned.Mesh.Triangles.push_back(triangle);
   this->Cleaned.OriginalCell.push_back(cell);
+  if (this->Cleaned.Report.MergedPoints > 0)
+  {
+    this->Cleaned.OriginalCorners.push_back(points);
+  }
 }
 
 void Cleaner::AddPolygon(vtkIdType cell, vtkIdType size, const vtkIdType* points)
 {
   if (size == 3)
   {
-    this->AddTriangle(
-      cell, { this->Merged[points[0]], this->Merged[points[1]], this->Merged[points[2]] });
+    this->AddTriangle(cell, ToTriangle(points[0], points[1], points[2]));
     return;
   }
+  const auto isSame = [this](std::int32_t a, std::int32_t b)
+  { return this->Merged[a] == this->Merged[b]; };
   this->Outline.clear();
   for (vtkIdType i = 0; i < size; ++i)
   {
-    const std::int32_t point = this->Merged[points[i]];
-    if (this->Outline.empty() || this->Outline.back() != point)
+    const auto point = static_cast<std::int32_t>(points[i]);
+    if (this->Outline.empty() || !isSame(this->Outline.back(), point))
     {
       this->Outline.push_back(point);
     }
   }
-  while (this->Outline.size() > 1 && this->Outline.back() == this->Outline.front())
+  while (this->Outline.size() > 1 && isSame(this->Outline.back(), this->Outline.front()))
   {
     this->Outline.pop_back();
   }
@@ -302,7 +317,7 @@ void Cleaner::AddPolygon(vtkIdType cell, vtkIdType size, const vtkIdType* points
   this->Corners.clear();
   for (const std::int32_t point : this->Outline)
   {
-    this->Corners.push_back(this->Local[point]);
+    this->Corners.push_back(this->Local[this->Merged[point]]);
   }
   const PolygonSplitter::Result result = this->Splitter.Split(this->Corners);
   const std::size_t before = this->Cleaned.OriginalCell.size();
@@ -330,8 +345,7 @@ void Cleaner::AddStrip(vtkIdType cell, vtkIdType size, const vtkIdType* points)
     // Every other triangle of a strip is wound the other way.
     const vtkIdType second = i % 2 == 0 ? i + 1 : i + 2;
     const vtkIdType third = i % 2 == 0 ? i + 2 : i + 1;
-    this->AddTriangle(
-      cell, { this->Merged[points[i]], this->Merged[points[second]], this->Merged[points[third]] });
+    this->AddTriangle(cell, ToTriangle(points[i], points[second], points[third]));
   }
 }
 
@@ -343,6 +357,7 @@ bool Cleaner::Triangulate()
     polys->GetNumberOfConnectivityIds() + strips->GetNumberOfConnectivityIds() -
       2 * (polys->GetNumberOfCells() + strips->GetNumberOfCells())));
   this->Cleaned.Mesh.Triangles.reserve(expected);
+  this->Cleaned.OriginalCorners.reserve(this->Cleaned.Report.MergedPoints > 0 ? expected : 0);
   this->Cleaned.OriginalCell.reserve(expected);
   return this->VisitCells(polys, this->FirstStrip - polys->GetNumberOfCells(),
            [this](vtkIdType cell, vtkIdType size, const vtkIdType* points)
@@ -406,16 +421,15 @@ CleaningResult Cleaner::Run()
   this->Cleaned.Report.FlatTriangles = static_cast<std::int64_t>(this->Flat.size());
   if (!this->Flat.empty())
   {
-    CloseFlatTriangles(
-      this->Local, std::move(this->Flat), this->Cleaned.Mesh.Triangles, this->Cleaned.OriginalCell);
+    CloseFlatTriangles(this->Local, std::move(this->Flat), this->Cleaned);
   }
   for (std::size_t i = 0; this->Options.CellSides && i < this->Cleaned.OriginalCell.size(); ++i)
   {
     const auto cell = static_cast<std::size_t>(this->Cleaned.OriginalCell[i]);
     this->Cleaned.Mesh.Sides.push_back((*this->Options.CellSides)[cell]);
   }
-  this->Cleaned.Report.DuplicateTriangles =
-    DropDuplicateTriangles(this->Cleaned.Mesh, this->Cleaned.OriginalCell);
+  this->Cleaned.Report.DuplicateTriangles = DropDuplicateTriangles(
+    this->Cleaned.Mesh, this->Cleaned.OriginalCell, this->Cleaned.OriginalCorners);
   this->DropUnusedPoints();
   const CleaningReport& report = this->Cleaned.Report;
   if (this->Cleaned.Mesh.Triangles.empty())

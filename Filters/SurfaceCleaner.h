@@ -40,9 +40,12 @@ struct CleanedMesh
   TriangleMesh Mesh;                    ///< world frame; every point is used
   std::vector<vtkIdType> OriginalPoint; ///< for each point the first input point that it stands for
   std::vector<vtkIdType> OriginalCell;  ///< for each triangle the input cell
-  std::vector<std::int32_t> KeptPoint;  ///< for each input point what stands for it, or -1
-  double LargestCoordinate = 0.0;       ///< largest |coordinate| of a used point [world unit]
-  double MergedWithin = 0.0;            ///< the merge tolerance [world unit]
+  /// For each triangle the input points at its corners, which have the values there; empty where no
+  /// points were merged, as these are the OriginalPoint of its corners then.
+  std::vector<Triangle> OriginalCorners;
+  std::vector<std::int32_t> KeptPoint; ///< for each input point what stands for it, or -1
+  double LargestCoordinate = 0.0;      ///< largest |coordinate| of a used point [world unit]
+  double MergedWithin = 0.0;           ///< the merge tolerance [world unit]
   CleaningReport Report;
 };
 

@@ -1,5 +1,6 @@
 #include "haptics/Filters/SurfacePreparation.h"
 
+#include "haptics/Filters/DataPoints.h"
 #include "haptics/Filters/PassAttributes.h"
 
 #include "vtkCellArray.h"
@@ -86,9 +87,9 @@ private:
   const double* Doubles = nullptr;
 };
 
-vtkSmartPointer<vtkCellArray> MakeCells(const TriangleMesh& mesh)
+vtkSmartPointer<vtkCellArray> MakeCells(const std::vector<Triangle>& triangles)
 {
-  const auto count = static_cast<vtkIdType>(mesh.Triangles.size());
+  const auto count = static_cast<vtkIdType>(triangles.size());
   vtkNew<vtkIdTypeArray> offsets;
   vtkNew<vtkIdTypeArray> connectivity;
   offsets->SetNumberOfValues(count + 1);
@@ -97,7 +98,7 @@ vtkSmartPointer<vtkCellArray> MakeCells(const TriangleMesh& mesh)
   for (vtkIdType i = 0; i < count; ++i)
   {
     offsets->SetValue(i, 3 * i);
-    corner = std::copy(mesh.Triangles[i].begin(), mesh.Triangles[i].end(), corner);
+    corner = std::copy(triangles[i].begin(), triangles[i].end(), corner);
   }
   offsets->SetValue(count, 3 * count);
   auto cells = vtkSmartPointer<vtkCellArray>::New();
@@ -228,12 +229,40 @@ void SurfacePreparation::Finish()
 
 int SurfacePreparation::Fill(vtkPolyData* input, vtkPolyData* output) const
 {
-  output->SetPoints(this->CleanPoints);
-  output->SetPolys(this->CleanTriangles);
-  return PassAttributes(input->GetPointData(), input->GetNumberOfPoints(), this->PointIds,
-           output->GetPointData()) +
+  return this->FillPoints(input, output) +
     PassAttributes(
       input->GetCellData(), input->GetNumberOfCells(), this->CellIds, output->GetCellData());
+}
+
+int SurfacePreparation::FillPoints(vtkPolyData* input, vtkPolyData* output) const
+{
+  output->SetPoints(this->CleanPoints);
+  output->SetPolys(this->CleanTriangles);
+  vtkPointData* const data = input->GetPointData();
+  DataPoints found;
+  if (this->Corners)
+  {
+    found = FindDataPoints(this->Corners->Triangles, this->Corners->Originals,
+      this->PointIds->GetPointer(0), static_cast<std::size_t>(this->PointIds->GetNumberOfValues()),
+      data, input->GetNumberOfPoints());
+  }
+  if (found.Originals.empty())
+  {
+    return PassAttributes(data, input->GetNumberOfPoints(), this->PointIds, output->GetPointData());
+  }
+  vtkNew<vtkPoints> points;
+  points->SetDataType(this->CleanPoints->GetDataType());
+  points->DeepCopy(this->CleanPoints);
+  vtkNew<vtkIdTypeArray> ids;
+  ids->DeepCopy(this->PointIds);
+  for (std::size_t i = 0; i < found.Originals.size(); ++i)
+  {
+    points->InsertNextPoint(this->CleanPoints->GetPoint(found.MergedWith[i]));
+    ids->InsertNextValue(found.Originals[i]);
+  }
+  output->SetPoints(points);
+  output->SetPolys(MakeCells(found.Corners));
+  return PassAttributes(data, input->GetNumberOfPoints(), ids, output->GetPointData());
 }
 
 void SurfacePreparation::FollowOn(std::shared_ptr<const SurfacePreparation> earlier)
@@ -279,6 +308,7 @@ bool SurfacePreparation::Follow(std::vector<Vec3>& points)
   this->CleanTriangles = this->Earlier->CleanTriangles;
   this->PointIds = this->Earlier->PointIds;
   this->CellIds = this->Earlier->CellIds;
+  this->Corners = this->Earlier->Corners;
   return true;
 }
 
@@ -338,7 +368,12 @@ CleaningResult SurfacePreparation::Run(const ProgressCall& progress)
   this->MergedWithin = cleaned.MergedWithin;
   this->Kept = std::make_shared<const std::vector<std::int32_t>>(std::move(cleaned.KeptPoint));
   this->CleanPoints = MakePoints(cleaned.Mesh.Points, dataType);
-  this->CleanTriangles = MakeCells(cleaned.Mesh);
+  this->CleanTriangles = MakeCells(cleaned.Mesh.Triangles);
+  if (!cleaned.OriginalCorners.empty())
+  {
+    this->Corners = std::make_shared<const CleanedCorners>(
+      CleanedCorners{ cleaned.Mesh.Triangles, std::move(cleaned.OriginalCorners) });
+  }
   this->PointIds = MakeIdArray("OriginalPointId", cleaned.OriginalPoint);
   this->CellIds = MakeIdArray("OriginalCellId", cleaned.OriginalCell);
   if (progress && !progress(0.5))

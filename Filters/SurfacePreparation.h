@@ -70,7 +70,8 @@ public:
   void Finish();
 
   /// Gives `output` the clean points and triangles, and the attributes of `input`, a geometry with
-  /// the key above. Returns how many arrays were left out, having too few tuples. GUI thread.
+  /// the key above; points that were merged but have other data come again after the others, see
+  /// DataPoints. Returns how many arrays were left out, having too few tuples. GUI thread.
   int Fill(vtkPolyData* input, vtkPolyData* output) const;
 
   /// What the result depends on: equal keys, equal results.
@@ -94,6 +95,12 @@ public:
   ///@}
 
 private:
+  /// The clean triangles, and for each of their corners the input's point.
+  struct CleanedCorners
+  {
+    std::vector<Triangle> Triangles;
+    std::vector<Triangle> Originals;
+  };
   enum class Cells
   {
     Unknown,
@@ -101,6 +108,7 @@ private:
     Other
   };
   void ReadSides();
+  int FillPoints(vtkPolyData* input, vtkPolyData* output) const;
   bool HasSameCells() const;
   bool MovePoints(std::vector<Vec3>& points) const;
 
@@ -118,6 +126,7 @@ private:
   vtkSmartPointer<vtkCellArray> CleanTriangles;
   vtkSmartPointer<vtkIdTypeArray> PointIds;
   vtkSmartPointer<vtkIdTypeArray> CellIds;
+  std::shared_ptr<const CleanedCorners> Corners;         ///< null where no points were merged
   std::shared_ptr<const std::vector<std::int32_t>> Kept; ///< for each input point, as CleanedMesh
   double MergedWithin = 0.0;                             ///< [world unit]
   std::shared_ptr<const SurfacePreparation> Earlier;

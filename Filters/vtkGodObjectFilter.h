@@ -13,6 +13,11 @@
  * - one field data array of one value for each count below, for example `BoundaryEdges`, and the
  *   string array `TouchedSide`.
  *
+ * Equal points whose point data differ (creases, boxes, materials, seams of texture coordinates,
+ * discontinuous Galerkin) are one for contact, and stay several in the output, so that each cell
+ * keeps its own values; global ids, pedigree ids and ghost levels do not count. The points that are
+ * so added come after the others.
+ *
  * From the same triangles it builds the snapshot that a vtkHapticServo or a vtkGodObjectTrace
  * touches: GetSurface() (C++ only).
  *

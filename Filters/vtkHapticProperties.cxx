@@ -1,5 +1,6 @@
 #include "vtkHapticProperties.h"
 
+#include "haptics/Filters/DataPoints.h"
 #include "haptics/Filters/NumberSetting.h"
 #include "haptics/Filters/PropertyArrays.h"
 
@@ -254,6 +255,8 @@ std::shared_ptr<const haptics::SurfaceProperties> vtkHapticProperties::Build(vtk
 {
   bool isPlain = !this->ForceProfile && !this->TextureImage && !this->ForceShading;
   haptics::PropertyValues values;
+  values.Corners = haptics::DataCorners(geometry, surface);
+  values.NumberOfPointValues = static_cast<std::size_t>(geometry->GetNumberOfPoints());
   for (int i = 0; i < NUMBER_OF_PROPERTIES; ++i)
   {
     const Source& source = (*this->Sources)[i];
@@ -270,7 +273,7 @@ std::shared_ptr<const haptics::SurfaceProperties> vtkHapticProperties::Build(vtk
       const haptics::PropertyMapping mapping{ source.Function, source.Curve, source.Range,
         Facts[i].Lowest, Facts[i].Highest, i == TEXTURE };
       const std::size_t wanted =
-        chosen.IsPerCell ? surface.Triangles().size() : surface.Points().size();
+        chosen.IsPerCell ? surface.Triangles().size() : values.NumberOfPointValues;
       const std::string problem = haptics::MapArray(
         chosen.Array, mapping, field.Constant, static_cast<vtkIdType>(wanted), field);
       if (!problem.empty())

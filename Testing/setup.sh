@@ -5,7 +5,7 @@ set -eu
 usage()
 {
   cat <<'END'
-Usage: sh Testing/setup.sh [--vtk] [--tests] [--slow] [--help]
+Usage: sh Testing/setup.sh [--vtk] [--tests] [--slow] [--ci] [--packages] [--help]
 
 Installs the packages that are missing (Debian 12, 13 and 14; with sudo where not root), configures
 and builds into build/, and leaves build/env.sh to source. What is done already is not done again.
@@ -15,18 +15,23 @@ and builds into build/, and leaves build/env.sh to source. What is done already 
           each other, and this script never removes a package.
   --tests build the tests too, and install what they need
   --slow  install what the slow tests need as well: a virtual machine for the USB driver
+  --ci    install what .ci/run needs as well: clang, for the fuzz targets
+  --packages
+          end there, before anything is configured
 END
 }
 
 cd "$(dirname "$0")/.."
 preset=paraview
 tests=
-slow=
+more=
+packages_only=
 for argument in "$@"; do
   case $argument in
     --vtk) preset=vtk ;;
     --tests) tests=yes ;;
-    --slow) slow=yes ;;
+    --slow|--ci) more="$more Testing/packages-${argument#--}.txt" ;;
+    --packages) packages_only=yes ;;
     -h|--help) usage; exit 0 ;;
     *) echo "setup.sh: unknown argument '$argument'" >&2; usage >&2; exit 2 ;;
   esac
@@ -184,7 +189,12 @@ case $release in
     fi
     ;;
 esac
-[ -z "$slow" ] || [ ! -r "$list" ] || install_packages Testing/packages-slow.txt
+if [ -r "$list" ]; then # a Debian that is known
+  for list in $more; do
+    install_packages "$list"
+  done
+fi
+[ -z "$packages_only" ] || exit 0
 
 needed=
 for tool in cmake ninja c++ /usr/bin/python3; do

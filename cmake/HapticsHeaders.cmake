@@ -6,7 +6,8 @@
 #     paths are below: haptics_install_headers(haptics Math/Vec3.h) gives "haptics/Math/Vec3.h".
 
 # In the build tree each room is a link to its sources.
-set(haptics_include_dir "${CMAKE_BINARY_DIR}/include")
+# Not "include": VTK writes a Python.h there.
+set(haptics_include_dir "${CMAKE_BINARY_DIR}/headers")
 file(MAKE_DIRECTORY "${haptics_include_dir}/haptics")
 foreach (room IN ITEMS
   Filters/Core/Math Filters/Core/Surface Filters/Core/Material Filters/Core/Contact

@@ -1,5 +1,7 @@
 #include "haptics/Scene/HapticProbeFiller.h"
 
+#include "haptics/Filters/DataPoints.h"
+
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -102,7 +104,7 @@ void vtkHapticProbeFiller::SetContact(vtkHapticProbe* probe, const haptics::Tick
   vtkNew<vtkIdList> ids;
   prepared->GetPolys()->GetCellAtId(constraint.Triangle, ids);
   // A mirrored actor's surface has the corners in another order than its geometry.
-  const bool mirrored = ids->GetId(1) == triangle[2] && ids->GetId(2) == triangle[1];
+  const bool mirrored = haptics::HasExchangedCorners(prepared, *surface);
   const double weights[3] = { probe->Weights[0], probe->Weights[mirrored ? 2 : 1],
     probe->Weights[mirrored ? 1 : 2] };
   vtkDataArray* original = prepared->GetPointData()->GetArray("OriginalPointId");

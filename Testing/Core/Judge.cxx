@@ -216,6 +216,16 @@ std::int32_t Judge::FindGrazed(const Vec3& from, const Vec3& to) const
   return grazed;
 }
 
+bool Judge::IsOnTriangle(const Vec3& x) const
+{
+  return this->Visit(x, x, 0.0,
+    [&](std::int32_t triangle)
+    {
+      const auto& [i, j, k] = this->Corners[triangle];
+      return SegmentMeets(x, x, this->Places[i], this->Places[j], this->Places[k]);
+    });
+}
+
 /// `cone`: its apex, then the corners of its base.
 bool Judge::IsInView(std::int32_t triangle, const std::vector<Vec3>& cone) const
 {

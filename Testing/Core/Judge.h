@@ -36,6 +36,9 @@ public:
   /// way passes through no side, but a point that stops there has left both.
   std::int32_t FindGrazed(const Vec3& from, const Vec3& to) const;
 
+  /// Whether a point lies on a triangle.
+  bool IsOnTriangle(const Vec3& x) const;
+
   /// Whether no triangle that can be touched from `eye` meets the cone from there to `goal`, of a
   /// radius of a thousandth of its length: a plain view. The cone is taken 2 % wider, so that it is
   /// not said of a view that is not plain. Triangles that `eye` lies on are in the way.

@@ -73,11 +73,12 @@ void JudgedSoak::RunKind(const std::string& scene, const std::vector<TouchedSurf
     isReplay ? static_cast<unsigned>(this->Options.Episode) : 1000003u * this->Options.Seed;
   PrintFaults(
     trial, scene + ", " + SurfacePath::NameOf(kind), episode, isReplay ? LONG_MAX : MostPrinted);
+  long strokes = 0;
   do
   {
     const std::vector<Vec3> way = path.Make(kind, episode);
-    trial.Place(way.front());
-    for (std::size_t tick = 0; tick < way.size(); ++tick)
+    const bool isPlaced = trial.Place(way.front());
+    for (std::size_t tick = 0; isPlaced && tick < way.size(); ++tick)
     {
       trial.Tick(way[tick]);
       if (isReplay)
@@ -88,7 +89,8 @@ void JudgedSoak::RunKind(const std::string& scene, const std::vector<TouchedSurf
       }
     }
     ++episode;
-  } while (!isReplay && trial.Count().Ticks < this->Options.Ticks);
+    ++strokes;
+  } while (!isReplay && trial.Count().Ticks < this->Options.Ticks && strokes < this->Options.Ticks);
   count += trial.Count();
   this->OfKinds[kind] += trial.Count();
 }

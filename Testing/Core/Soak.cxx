@@ -133,9 +133,9 @@ private:
     for (long tick = 0; tick < this->Options.Ticks; ++tick)
     {
       const Vec3 hip = path.Next();
-      if (tick % 20000 == 0)
+      if (tick % 20000 == 0 && trial.Place(hip))
       {
-        trial.Place(hip); // a restart, wherever that is: inside is free to leave
+        // A restart, wherever that is: inside is free to leave.
         stalledBefore = false;
       }
       trial.Tick(hip);

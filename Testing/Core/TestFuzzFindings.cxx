@@ -105,3 +105,19 @@ TEST(FuzzFindings, ASmallSurfaceBesideAHugeOneIsNotPassedByRounding)
     }
   }
 }
+
+// A triangle of 5 by 3e-16: its distances are known to no better than its length, and the way to
+// one of its corners goes through it.
+TEST(FuzzFindings, AWayThroughATriangleAsThinAsRoundingIsHeld)
+{
+  TriangleMesh mesh;
+  mesh.Points = { { -2, -2, -2 }, { -1.25, -1.25, -1.25 },
+    { 1.5000000000000002, 1.5000000000000002, 1.5 }, { -1.25, 1.5000000000000002, -1.75 },
+    { -1.75, -1.75, -1.75 }, { -1.75, -1.75, -0.5 } };
+  mesh.Triangles = { { 4, 4, 3 }, { 0, 1, 2 }, { 5, 1, 4 } };
+  for (const EngineKind engine : { EngineKind::Embree, EngineKind::BruteForce })
+  {
+    ExpectNoCrossing(
+      MakeSurface(mesh, Side::Both, engine), { { -0.12, -0.31, -0.24 }, { -2, -2, -2 } });
+  }
+}

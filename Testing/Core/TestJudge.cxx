@@ -470,6 +470,17 @@ TEST_P(TrialOverAPlate, TellsStuckFromBalancing)
     (std::array<long, 2>{ 1, 0 }));
 }
 
+TEST_P(TrialOverAPlate, StartsOnNoTriangle)
+{
+  HandMade glued(Stays);
+  Trial trial = this->Make(glued, glued);
+  EXPECT_FALSE(trial.Place(this->At(0.125, 0.25, 0)));
+  EXPECT_FALSE(trial.Place(this->At(1, 0.25, 0))) << "its edge is of it";
+  EXPECT_FALSE(trial.Place(this->At(1, 1, 0)));
+  EXPECT_TRUE(trial.Place(this->At(1.25, 1, 0)));
+  EXPECT_TRUE(trial.Place(this->At(0.125, 0.25, 0x1p-20)));
+}
+
 TEST_P(TrialOverAPlate, TakesACrossingProbeForACrossing)
 {
   HandMade stuck(Stays);

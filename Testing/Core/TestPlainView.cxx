@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 using namespace haptics;
 using namespace haptics::testing;
@@ -248,4 +249,60 @@ TEST(PlainView, ANeedleEndsAtItsTip)
       EXPECT_EQ(god.Update({ 1e-9 / halfWidth, 0, -0.05 }).Status, UpdateStatus::Touching);
     }
   }
+}
+
+// Triangles whose third corner was computed on the edge of the other two: as thin as rounding. A
+// hand whose way goes through one, told by exact arithmetic, is held by it and slides along it.
+TEST(PlainView, ATriangleAsThinAsRoundingHoldsWhatGoesThroughIt)
+{
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> share;
+  const auto anywhere = [&] { return Vec3{ normal(random), normal(random), normal(random) }; };
+  int aimed = 0;
+  for (int run = 0; run < 2000; ++run)
+  {
+    const double scale = run % 3 == 0 ? 1.0 : run % 3 == 1 ? 1e-6 : 1e6;
+    const Vec3 origin = anywhere();
+    TriangleMesh mesh;
+    mesh.Points = { scale * (origin + anywhere()), scale * (origin + anywhere()), {} };
+    mesh.Points[2] = mesh.Points[0] + share(random) * (mesh.Points[1] - mesh.Points[0]);
+    mesh.Triangles = { { 0, 1, 2 } };
+    std::string error;
+    SurfaceOptions options;
+    options.TouchedSide = Side::Both;
+    const auto surface = TriangleSurface::Build(mesh, options, error);
+    if (!surface)
+    {
+      continue; // in one line, to the last bit
+    }
+    double weights[3] = { share(random), share(random), share(random) };
+    const double sum = weights[0] + weights[1] + weights[2];
+    Vec3 at{};
+    for (int k = 0; k < 3; ++k)
+    {
+      at = at + (weights[k] / sum) * mesh.Points[k];
+    }
+    const Vec3 half = (1e-4 * scale) * Unit(anywhere());
+    const ExactQueries exact(surface);
+    if (!exact.Crosses(at + half - surface->Origin(), at - half - surface->Origin()))
+    {
+      continue;
+    }
+    ++aimed;
+    GodObject god({ surface });
+    god.Place(at + half);
+    for (int tick = 0; tick < 3; ++tick)
+    {
+      EXPECT_EQ(god.Update(at - half).Status, UpdateStatus::Touching) << "run " << run;
+      EXPECT_GT(god.Current().NumberOfConstraints, 0);
+      int corners = 0;
+      const Vec3* const way = god.Way(corners);
+      for (int i = 0; i + 1 < corners; ++i)
+      {
+        EXPECT_FALSE(exact.Crosses(way[i], way[i + 1])) << "run " << run << ", piece " << i;
+      }
+    }
+  }
+  EXPECT_GT(aimed, 200);
 }

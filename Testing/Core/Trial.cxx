@@ -161,10 +161,16 @@ void Trial::Report(Finding finding)
   }
 }
 
-void Trial::Place(const Vec3& position)
+bool Trial::Place(const Vec3& position)
 {
-  this->Tried.Place(position);
-  this->IsPlaced = false;
+  const bool isOn = std::any_of(this->Parts.begin(), this->Parts.end(),
+    [&](const Part& part) { return part.Surface->IsOnTriangle(this->LocalOf(part, position)); });
+  if (!isOn)
+  {
+    this->Tried.Place(position);
+    this->IsPlaced = false;
+  }
+  return !isOn;
 }
 
 void Trial::Lead(const Vec3& hip)
@@ -298,7 +304,7 @@ bool Trial::Lift(int attempt, double height)
   return false;
 }
 
-bool Trial::HasDescent(double reach) const
+bool Trial::HasDescent(double reach, double length) const
 {
   const Vec3 pull = Unit(this->Goal - this->Now);
   std::vector<Vec3> normals;
@@ -309,10 +315,10 @@ bool Trial::HasDescent(double reach) const
   }
   const auto leads = [&](const Vec3& along)
   {
-    // Steeper than 1 in 1000, and a little off the facet, not into it by rounding.
+    // Steeper than 1 in 1000, and so long that it does not end in the clearance of a narrow fold.
     const double steep = Dot(along, pull);
     return steep > 1e-3 * Length(along) && Length(along) > 1e-3 &&
-      this->IsFree(this->Now, this->Now + (2.0 * reach / Length(along)) * along);
+      this->IsFree(this->Now, this->Now + (length / Length(along)) * along);
   };
   if (leads(pull))
   {
@@ -396,7 +402,9 @@ void Trial::PressAgain(const Vec3& hip)
   }
   if (nearer >= WaysToBeStuck)
   {
-    const Fault fault = this->HasDescent(2.0 * lift) ? Fault::Stuck : Fault::Balance;
+    const Fault fault = this->HasDescent(2.0 * lift, std::min(50.0 * lift, 0.5 * distance))
+      ? Fault::Stuck
+      : Fault::Balance;
     Finding finding{ fault, this->Now, this->Now, this->Goal };
     finding.Share = best;
     this->Report(finding);

@@ -122,7 +122,8 @@ public:
   /// Called after each tick of the follower, those at rest included: from where to where.
   std::function<void(const Vec3& before, const Vec3& now, const Vec3& goal)> OnTick;
 
-  void Place(const Vec3& position);
+  /// False, and nothing is placed, where that is on a triangle: on neither side of it.
+  bool Place(const Vec3& position);
   void Tick(const Vec3& hip);
   const TrialCount& Count() const { return this->Counted; }
   const Vec3& Position() const { return this->Now; }
@@ -140,8 +141,9 @@ private:
   void PressAgain(const Vec3& hip);
   /// Puts the probe a little away from what holds the point. False where no such way is free.
   bool Lift(int attempt, double height);
-  /// Whether a straight way along a facet there is free and leads nearer to the HIP.
-  bool HasDescent(double reach) const;
+  /// Whether a straight way of `length` along a facet there, or two, is free and leads nearer to
+  /// the HIP. `reach`: facets within that count.
+  bool HasDescent(double reach, double length) const;
   void Report(Finding finding);
   Vec3 LocalOf(const Part& part, const Vec3& x) const;
 

@@ -1,7 +1,5 @@
 #include "haptics/Contact/FacetBatch.h"
 
-#include "haptics/Surface/Facet.h"
-
 #include <cmath>
 
 namespace haptics
@@ -21,10 +19,10 @@ inline double Choose(bool first, double x, double y)
 {
   return first ? x : y;
 }
-/// How far x lies outside of the range of three values, squared.
-inline double SquaredGap(double x, double a, double b, double c)
+/// How far x lies outside of a range, squared.
+inline double SquaredGap(double x, double low, double high)
 {
-  const double gap = More(More(Less(a, Less(b, c)) - x, x - More(a, More(b, c))), 0.0);
+  const double gap = More(More(low - x, x - high), 0.0);
   return gap * gap;
 }
 }
@@ -43,9 +41,16 @@ void FacetBatch::Answer(std::int32_t count, const Question& question)
   double* const __restrict normalX = this->N[0].data();
   double* const __restrict normalY = this->N[1].data();
   double* const __restrict normalZ = this->N[2].data();
+  double* const __restrict lowX = this->Lows[0].data();
+  double* const __restrict lowY = this->Lows[1].data();
+  double* const __restrict lowZ = this->Lows[2].data();
+  double* const __restrict highX = this->Highs[0].data();
+  double* const __restrict highY = this->Highs[1].data();
+  double* const __restrict highZ = this->Highs[2].data();
   double* const __restrict offsets = this->Offsets.data();
   double* const __restrict errors = this->Errors.data();
   double* const __restrict clearances = this->Clearances.data();
+  double* const __restrict conditions = this->Conditions.data();
   double* const __restrict squaredDistances = this->SquaredDistances.data();
   const Vector middle = question.Middle;
   const Vector centre = question.Centre;
@@ -96,11 +101,21 @@ void FacetBatch::Answer(std::int32_t count, const Question& question)
     const double fromX = vX - centre.x, fromY = vY - centre.y, fromZ = vZ - centre.z;
     const double reach = std::sqrt(fromX * fromX + fromY * fromY + fromZ * fromZ) + farthest;
     const double error = 32.0 * UnitRoundoff * condition * reach;
+    const double lX = Less(aX, Less(bX, cX)), hX = More(aX, More(bX, cX));
+    const double lY = Less(aY, Less(bY, cY)), hY = More(aY, More(bY, cY));
+    const double lZ = Less(aZ, Less(bZ, cZ)), hZ = More(aZ, More(bZ, cZ));
+    lowX[i] = lX;
+    lowY[i] = lY;
+    lowZ[i] = lZ;
+    highX[i] = hX;
+    highY[i] = hY;
+    highZ[i] = hZ;
     normalX[i] = nX;
     normalY[i] = nY;
     normalZ[i] = nZ;
     offsets[i] = nX * fromX + nY * fromY + nZ * fromZ;
     errors[i] = error;
+    conditions[i] = condition;
     clearances[i] = More(minimum, Less(4.0 * error, 1e-6 * std::sqrt(longest)));
 
     // Apart from the ball: outside its box, or beyond the triangle's plane or one of its edges.
@@ -114,14 +129,15 @@ void FacetBatch::Answer(std::int32_t count, const Question& question)
     const double inCa = (nY * caZ - nZ * caY) * (middle.x - cX) +
       (nZ * caX - nX * caZ) * (middle.y - cY) + (nX * caY - nY * caX) * (middle.z - cZ);
     const double outAb = Less(inAb, 0.0), outBc = Less(inBc, 0.0), outCa = Less(inCa, 0.0);
-    const double toBox = SquaredGap(middle.x, aX, bX, cX) + SquaredGap(middle.y, aY, bY, cY) +
-      SquaredGap(middle.z, aZ, bZ, cZ);
-    // Bitwise, so that there is no branch. The first is false for NaN: no area.
-    const bool meets = (condition < HUGE_VAL) & (toBox <= radius * radius) &
-      (height * height <= squaredReach) & (outAb * outAb <= squaredReach * ab) &
-      (outBc * outBc <= squaredReach * bc) & (outCa * outCa <= squaredReach * ca);
-    const double squaredDistance = SquaredGap(position.x, aX, bX, cX) +
-      SquaredGap(position.y, aY, bY, cY) + SquaredGap(position.z, aZ, bZ, cZ);
+    const double toBox =
+      SquaredGap(middle.x, lX, hX) + SquaredGap(middle.y, lY, hY) + SquaredGap(middle.z, lZ, hZ);
+    // Bitwise, so that there is no branch. Of a plane that is not known nothing is concluded.
+    const bool meets = (toBox <= radius * radius) &
+      (!(condition < HUGE_VAL) |
+        ((height * height <= squaredReach) & (outAb * outAb <= squaredReach * ab) &
+          (outBc * outBc <= squaredReach * bc) & (outCa * outCa <= squaredReach * ca)));
+    const double squaredDistance = SquaredGap(position.x, lX, hX) + SquaredGap(position.y, lY, hY) +
+      SquaredGap(position.z, lZ, hZ);
     squaredDistances[i] = meets ? squaredDistance : -1.0;
   }
 }

@@ -1,7 +1,7 @@
 #ifndef Haptics_FacetBatch_h
 #define Haptics_FacetBatch_h
 
-#include "haptics/Math/VectorMath.h"
+#include "haptics/Surface/Facet.h"
 
 #include <array>
 #include <cstdint>
@@ -43,7 +43,7 @@ public:
 
   ///@{
   /// Of triangle i, after Answer().
-  /// Whether it has an area and may meet the ball.
+  /// Whether it may meet the ball.
   bool Meets(std::int32_t i) const { return this->SquaredDistances[i] >= 0.0; }
   /// Of its box from Position.
   double SquaredDistance(std::int32_t i) const { return this->SquaredDistances[i]; }
@@ -51,13 +51,20 @@ public:
   double PlaneOffset(std::int32_t i) const { return this->Offsets[i]; }
   double Error(std::int32_t i) const { return this->Errors[i]; }
   double Clearance(std::int32_t i) const { return this->Clearances[i]; }
+  /// The corners of its box.
+  double Low(std::int32_t i, int axis) const { return this->Lows[axis][i]; }
+  double High(std::int32_t i, int axis) const { return this->Highs[axis][i]; }
+  /// Whether all of the above is good enough; of a thin triangle, or one without area, Facet has to
+  /// be asked.
+  bool IsWellKnown(std::int32_t i) const { return this->Conditions[i] < Facet::WellConditioned; }
   ///@}
 
 private:
   using Values = std::array<double, Capacity>;
 
   std::array<Values, 3> A, B, C, N; ///< corners and unit normals by axis
-  Values Offsets, Errors, Clearances;
+  std::array<Values, 3> Lows, Highs;
+  Values Offsets, Errors, Clearances, Conditions;
   Values SquaredDistances; ///< negative where the triangle does not meet the ball
 };
 }

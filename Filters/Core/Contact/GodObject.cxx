@@ -124,9 +124,16 @@ bool GodObject::Implementation::Walk(const Vector& goal)
 bool GodObject::Implementation::FindFirstHit(
   const Vector& goal, const ActivePlanes& planes, FacetHit& hit)
 {
-  hit = FacetHit();
   for (std::size_t i = this->First; i < this->Last; ++i)
   {
+    if (i == this->First)
+    {
+      if (!this->Sets[i].FindFirstHit(goal, planes, this->Budget, hit))
+      {
+        return false;
+      }
+      continue;
+    }
     FacetHit other;
     if (!this->Sets[i].FindFirstHit(goal, planes, this->Budget, other))
     {
@@ -201,14 +208,10 @@ bool GodObject::Implementation::Pass(const Vector& hip)
     {
       return false;
     }
-    this->Active.Add(hit.Plane);
     // One that was met beyond its facet's edge, which is under the new one, is in nobody's way.
-    this->Active.Keep(
-      [&](const ActivePlane& plane)
-      {
-        return plane.Facet == hit.Plane.Facet ||
-          !this->Sets[plane.Facet.Surface].IsPassedOver(plane, this->Position, hit.Plane);
-      });
+    this->Active.Keep([&](const ActivePlane& plane)
+      { return !this->Sets[plane.Facet.Surface].IsPassedOver(plane, this->Position, hit.Plane); });
+    this->Active.Add(hit.Plane);
     goal = this->Active.Nearest(this->Position, hip);
   }
   return false;

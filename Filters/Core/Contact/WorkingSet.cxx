@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace haptics
 {
@@ -30,8 +31,11 @@ WorkingSet::WorkingSet(
   this->Found.resize(capacity);
   this->Triangles.resize(capacity);
   this->Flipped.resize(capacity);
-  for (auto* values : { &this->NormalX, &this->NormalY, &this->NormalZ, &this->PlaneOffset,
-         &this->Error, &this->Clearance, &this->Distance, &this->TargetDistance, &this->Limit })
+  this->IsWire.resize(capacity);
+  for (auto* values :
+    { &this->NormalX, &this->NormalY, &this->NormalZ, &this->PlaneOffset, &this->Error,
+      &this->Clearance, &this->Distance, &this->TargetDistance, &this->Limit, &this->Low[0],
+      &this->Low[1], &this->Low[2], &this->High[0], &this->High[1], &this->High[2] })
   {
     values->resize(capacity);
   }
@@ -170,15 +174,11 @@ Coverage WorkingSet::CoverageAt(std::int32_t triangle, const Vector& normal, dou
   double wayError, const Vector& x, Vector& nearest) const
 {
   const auto [a, b, c] = this->CornersOf(triangle);
-  const auto& neighbours = this->Touched->AdjacentTriangles()[triangle];
-  const double own = GrowthOverSharedEdges * clearance + wayError;
-  const double overGaps = GrowthOverGaps * clearance + wayError;
-  Growth growth;
-  for (int k = 0; k < 3; ++k)
-  {
-    growth[k] = neighbours[k] == BoundaryEdge ? overGaps : own;
-  }
-  return CoverageOf(normal, a, b, c, x, growth, own, nearest);
+  return CoverageOf(
+    normal, a, b, c, x, GrowthOverSharedEdges * clearance + wayError,
+    GrowthOverGaps * clearance + wayError,
+    [&](int edge) { return this->Touched->AdjacentTriangles()[triangle][edge] == BoundaryEdge; },
+    nearest);
 }
 
 /// Whether the facet is under x. Where it only reaches over a gap, what stands on the other lip of
@@ -227,13 +227,18 @@ void WorkingSet::MeasureTarget(const Vector& to)
 
 void WorkingSet::TurnToPosition()
 {
+  if (this->HasWires)
+  {
+    this->TurnWires();
+  }
   if (this->Touched->TouchedSide() == Side::Front)
   {
     return;
   }
   for (std::int32_t i = 0; i < this->Count; ++i)
   {
-    if (this->Distance[i] > this->Error[i] || !this->Touched->TouchesBack(this->Triangles[i]))
+    if (this->Distance[i] > this->Error[i] || this->IsWire[i] ||
+      !this->Touched->TouchesBack(this->Triangles[i]))
     {
       continue;
     }
@@ -253,6 +258,41 @@ void WorkingSet::TurnToPosition()
         (*values)[i] = -(*values)[i];
       }
     }
+  }
+}
+
+void WorkingSet::TurnWires()
+{
+  for (std::int32_t i = 0; i < this->Count; ++i)
+  {
+    if (!this->IsWire[i])
+    {
+      continue;
+    }
+    const auto [a, b, c] = this->CornersOf(this->Triangles[i]);
+    const bool isBehind = Orientation(a, b, c, this->Position) < 0;
+    this->Flipped[i] = isBehind ? 1 : 0;
+    const Facet facet(a, b, c);
+    const Vector& anchor = facet.Corner[facet.Anchor];
+    const Vector along =
+      glm::normalize(facet.Corner[(facet.Anchor + 2) % 3] - facet.Corner[(facet.Anchor + 1) % 3]);
+    const Vector from = this->Position - anchor;
+    const Vector across = from - glm::dot(from, along) * along;
+    const double distance = glm::length(across);
+    // Nearer than rounding the direction is not known. Else what rounding of a longer way along the
+    // line has left of that is taken out.
+    const bool isKnown = distance > 0.125 * this->Clearance[i];
+    const Vector normal = isKnown
+      ? glm::normalize(across / distance - glm::dot(across / distance, along) * along)
+      : (isBehind ? -facet.Normal : facet.Normal);
+    this->NormalX[i] = normal.x;
+    this->NormalY[i] = normal.y;
+    this->NormalZ[i] = normal.z;
+    this->PlaneOffset[i] = glm::dot(normal, anchor - this->Centre);
+    // What is behind one that has only a front may go where it wants.
+    this->Distance[i] = isBehind && !this->Touched->TouchesBack(this->Triangles[i])
+      ? -std::numeric_limits<double>::max()
+      : glm::dot(normal, from);
   }
 }
 
@@ -287,7 +327,7 @@ void WorkingSet::SetLimits()
   double nearest = HUGE_VAL;
   for (std::int32_t i = 0; i < this->Count && nearest > this->Reach; ++i)
   {
-    nearest = std::min(nearest, std::abs(distance[i]));
+    nearest = std::min(nearest, std::abs(distance[i]) - error[i]);
   }
   // No triangle is nearer than its plane.
   if (nearest > this->Reach)
@@ -342,6 +382,11 @@ FacetHit WorkingSet::Scan(const Vector& to, const ActivePlanes& active)
     const double here = this->Distance[i];
     const double there = this->TargetDistance[i];
     const double clearance = this->Clearance[i];
+    // No farther than four clearances from a facet is it met, half a one over its plane.
+    if (!this->MeetsBox(i, to, 16.0 * clearance + 4.0 * wayError))
+    {
+      continue;
+    }
     const double approach = here - there;
     // Within two clearances is near enough: steps of rounding's size are not worth their check.
     const double stop = here <= 2.0 * clearance ? 0.0 : (here - clearance) / approach;
@@ -443,7 +488,8 @@ bool WorkingSet::IsClear(const Vector& target)
   {
     const bool mayBeBefore = this->Distance[i] >= -this->Error[i];
     const bool mayEndBehind = this->TargetDistance[i] <= this->Error[i];
-    if (mayBeBefore && mayEndBehind && this->Touches(i, this->Position, to))
+    if (mayBeBefore && mayEndBehind && this->MeetsBox(i, to, 0.0) &&
+      this->Touches(i, this->Position, to))
     {
       return false;
     }

@@ -7,6 +7,7 @@
 #include "haptics/Surface/SurfaceSide.h"
 #include "haptics/Surface/TriangleSurface.h"
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <vector>
@@ -138,15 +139,33 @@ private:
   /// Keeps of the found triangles those that meet the ball about `middle`. `farthest`: no place
   /// that will be asked for is farther from Centre.
   void Fill(const TriangleList& found, const Vector& middle, double radius, double farthest);
+  bool FillThin(std::int32_t i, double farthest);
   void KeepClearOfRounding();
   void Measure(const Vector& x, std::vector<double>& distances) const;
   void MeasurePosition();
   void MeasureTarget(const Vector& to);
   void TurnToPosition();
+  void TurnWires();
   void SetLimits();
   void GrowEmptyBall(double nearest);
   FacetHit Scan(const Vector& to, const ActivePlanes& active);
   bool Touches(std::int32_t i, const Vector& from, const Vector& to) const;
+  /// Whether the way to `to` comes into a triangle's box, grown by `reach`: as far as the way's own
+  /// box tells.
+  bool MeetsBox(std::int32_t i, const Vector& to, double reach) const
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double p = this->Position[axis];
+      const double q = to[axis];
+      if (this->Low[axis][i] - reach > std::max(p, q) ||
+        this->High[axis][i] + reach < std::min(p, q))
+      {
+        return false;
+      }
+    }
+    return true;
+  }
   struct Corners
   {
     Vector A, B, C;
@@ -224,7 +243,13 @@ private:
   std::vector<std::int32_t> Found;
   std::vector<std::int32_t> Triangles;
   std::vector<std::uint8_t> Flipped;
+  /// A triangle thinner than its clearance is met as a line: across it no direction is its own, so
+  /// its plane is the one that faces the god-object. Which side of the triangle that is on, and
+  /// what crosses it, is told exactly.
+  std::vector<std::uint8_t> IsWire;
+  bool HasWires = false;
   std::vector<double> NormalX, NormalY, NormalZ, PlaneOffset;
+  std::array<std::vector<double>, 3> Low, High; ///< its box
   std::vector<double> Error, Clearance;
   std::vector<double> Distance, TargetDistance;
   /// A motion that ends nearer to the plane than this may meet the facet.

@@ -42,6 +42,7 @@ bool WorkingSet::GatherBall(WorkBudget& budget)
     this->Radius = (fromOrigin - surfaceRadius) * (1.0 - 0x1p-40);
     this->RadiusToTry = surfaceRadius;
     this->Count = 0;
+    this->HasWires = false;
     this->FoundCount = 0;
     this->EmptyCentre = this->Position;
     this->EmptyRadius = this->Radius;
@@ -137,6 +138,7 @@ void WorkingSet::Fill(
   const TriangleList& found, const Vector& middle, double radius, double farthest)
 {
   this->Count = 0;
+  this->HasWires = false;
   this->FoundCount = found.Count;
   double nearest = HUGE_VAL;
   // The corners lie anywhere in memory: all are called for before the first is waited for.
@@ -168,20 +170,60 @@ void WorkingSet::Fill(
       {
         continue;
       }
-      nearest = std::min(nearest, batch.SquaredDistance(k));
-      const std::int32_t i = this->Count++;
+      const std::int32_t i = this->Count;
       this->Triangles[i] = found.Indices[start + k];
       this->Flipped[i] = 0;
-      this->NormalX[i] = batch.Normal(k, 0);
-      this->NormalY[i] = batch.Normal(k, 1);
-      this->NormalZ[i] = batch.Normal(k, 2);
-      this->PlaneOffset[i] = batch.PlaneOffset(k);
-      this->Error[i] = batch.Error(k);
-      this->Clearance[i] = batch.Clearance(k);
+      this->IsWire[i] = 0;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        this->Low[axis][i] = batch.Low(k, axis);
+        this->High[axis][i] = batch.High(k, axis);
+      }
+      if (batch.IsWellKnown(k))
+      {
+        this->NormalX[i] = batch.Normal(k, 0);
+        this->NormalY[i] = batch.Normal(k, 1);
+        this->NormalZ[i] = batch.Normal(k, 2);
+        this->PlaneOffset[i] = batch.PlaneOffset(k);
+        this->Error[i] = batch.Error(k);
+        this->Clearance[i] = batch.Clearance(k);
+      }
+      else if (!this->FillThin(i, farthest))
+      {
+        continue;
+      }
+      nearest = std::min(nearest, batch.SquaredDistance(k));
+      ++this->Count;
     }
   }
   this->EmptyRadius = 0.0;
   this->GrowEmptyBall(std::sqrt(nearest));
   this->MeasurePosition();
+}
+
+/// The plane of a thin triangle. False where it has no area.
+bool WorkingSet::FillThin(std::int32_t i, double farthest)
+{
+  const auto [a, b, c] = this->CornersOf(this->Triangles[i]);
+  const Facet facet(a, b, c);
+  if (!facet.HasArea())
+  {
+    return false;
+  }
+  const Vector from = facet.Corner[facet.Anchor] - this->Centre;
+  const double reach = glm::length(from) + farthest;
+  this->NormalX[i] = facet.Normal.x;
+  this->NormalY[i] = facet.Normal.y;
+  this->NormalZ[i] = facet.Normal.z;
+  this->PlaneOffset[i] = glm::dot(facet.Normal, from);
+  this->Error[i] = facet.DistanceError(reach);
+  this->Clearance[i] = facet.Clearance(this->MinimumClearance, reach);
+  this->IsWire[i] = facet.SmallestHeight < this->Clearance[i];
+  if (this->IsWire[i])
+  {
+    this->HasWires = true;
+    this->Error[i] = HUGE_VAL; // that of the triangle's plane, which is not known here
+  }
+  return true;
 }
 }

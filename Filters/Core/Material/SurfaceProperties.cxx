@@ -27,7 +27,8 @@ bool IsGood(Property property, double value)
   }
 }
 
-std::string FindFault(Property property, const PropertyField& field, const TriangleSurface& surface)
+std::string FindFault(
+  Property property, const PropertyField& field, std::size_t triangles, std::size_t points)
 {
   const std::string name = Names[static_cast<int>(property)];
   if (!IsGood(property, field.Constant))
@@ -38,8 +39,7 @@ std::string FindFault(Property property, const PropertyField& field, const Trian
   {
     return {};
   }
-  const std::size_t wanted =
-    field.IsPerTriangle ? surface.Triangles().size() : surface.Points().size();
+  const std::size_t wanted = field.IsPerTriangle ? triangles : points;
   const char* const places = field.IsPerTriangle ? "triangles" : "points";
   if (field.Values.size() != wanted)
   {
@@ -56,7 +56,7 @@ std::string FindFault(Property property, const PropertyField& field, const Trian
   return {};
 }
 
-std::string FindFault(const TextureImage& image, const TriangleSurface& surface)
+std::string FindFault(const TextureImage& image, std::size_t points)
 {
   if (image.Width <= 0 || image.Height <= 0 ||
     image.Values.size() != static_cast<std::size_t>(image.Width) * image.Height)
@@ -64,10 +64,10 @@ std::string FindFault(const TextureImage& image, const TriangleSurface& surface)
     return "the texture image says " + std::to_string(image.Width) + " x " +
       std::to_string(image.Height) + " pixels and has " + std::to_string(image.Values.size());
   }
-  if (image.Coordinates.size() != surface.Points().size())
+  if (image.Coordinates.size() != points)
   {
     return "the texture image has coordinates for " + std::to_string(image.Coordinates.size()) +
-      " of " + std::to_string(surface.Points().size()) + " points";
+      " of " + std::to_string(points) + " points";
   }
   if (!std::all_of(image.Values.begin(), image.Values.end(),
         [](float value) { return IsGood(Property::Texture, value); }))
@@ -83,6 +83,27 @@ std::string FindFault(const TextureImage& image, const TriangleSurface& surface)
   return {};
 }
 
+std::string FindFault(const PropertyValues& values, const TriangleSurface& surface)
+{
+  if (values.Corners.empty())
+  {
+    return {};
+  }
+  if (values.Corners.size() != surface.Triangles().size())
+  {
+    return "there are corners of " + std::to_string(values.Corners.size()) + " for " +
+      std::to_string(surface.Triangles().size()) + " triangles";
+  }
+  const auto count = static_cast<std::int32_t>(values.NumberOfPointValues);
+  const bool isGood = std::all_of(values.Corners.begin(), values.Corners.end(),
+    [count](const Triangle& t)
+    {
+      return std::all_of(
+        t.begin(), t.end(), [count](std::int32_t corner) { return corner >= 0 && corner < count; });
+    });
+  return isGood ? "" : "a corner has a number beyond the values";
+}
+
 /// The dynamic friction may not be above the static one at any place: it is enough that it is not
 /// at the corners, as both are interpolated alike.
 std::string FindFrictionFault(const PropertyValues& values, const TriangleSurface& surface)
@@ -96,7 +117,7 @@ std::string FindFrictionFault(const PropertyValues& values, const TriangleSurfac
   };
   for (std::size_t i = 0; i < surface.Triangles().size(); ++i)
   {
-    for (const std::int32_t corner : surface.Triangles()[i])
+    for (const std::int32_t corner : values.CornersOf(surface, i))
     {
       const double s = at(hold, corner, i);
       const double d = at(slide, corner, i);
@@ -123,10 +144,13 @@ PropertyValues::PropertyValues()
 std::shared_ptr<const SurfaceProperties> SurfaceProperties::Build(
   PropertyValues values, const TriangleSurface& surface, std::string& error)
 {
-  error.clear();
+  error = FindFault(values, surface);
+  const std::size_t points =
+    values.Corners.empty() ? surface.Points().size() : values.NumberOfPointValues;
   for (int i = 0; i < NumberOfProperties && error.empty(); ++i)
   {
-    error = FindFault(static_cast<Property>(i), values.Fields[i], surface);
+    error =
+      FindFault(static_cast<Property>(i), values.Fields[i], surface.Triangles().size(), points);
   }
   if (error.empty())
   {
@@ -134,7 +158,7 @@ std::shared_ptr<const SurfaceProperties> SurfaceProperties::Build(
   }
   if (error.empty() && values.Image)
   {
-    error = FindFault(*values.Image, surface);
+    error = FindFault(*values.Image, points);
   }
   if (error.empty() && !(values.FeatureAngle >= 0.0 && values.FeatureAngle <= 180.0))
   {
@@ -171,6 +195,10 @@ bool SurfaceProperties::HasSameArrays(const PropertyValues& values) const
       return false;
     }
   }
+  if (!isSame(this->Given.Corners, values.Corners))
+  {
+    return false;
+  }
   const bool hasImage = this->Given.Image != nullptr;
   return hasImage == (values.Image != nullptr) &&
     (!hasImage || isSame(this->Given.Image->Coordinates, values.Image->Coordinates));
@@ -193,8 +221,10 @@ double SurfaceProperties::Value(Property property, const Triangle& corners, std:
 }
 
 Material SurfaceProperties::At(
-  const Triangle& corners, std::int32_t triangle, const Corners& weights) const noexcept
+  const Triangle& points, std::int32_t triangle, const Corners& weights) const noexcept
 {
+  const Triangle& corners =
+    this->Given.Corners.empty() ? points : this->Given.Corners[static_cast<std::size_t>(triangle)];
   Material feel;
   feel.IsPlain = false;
   const PropertyField& stiffness = this->Given.Fields[static_cast<int>(Property::Stiffness)];

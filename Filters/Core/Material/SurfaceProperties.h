@@ -40,7 +40,7 @@ struct TextureImage
   int Height = 0; ///< pixels, > 0
   /// Row after row from below, shares of the force: +-LargestTexture.
   std::vector<float> Values;
-  /// For each point of the surface where it lies in the picture: 0 to 1 across and up.
+  /// For each point where it lies in the picture: 0 to 1 across and up.
   std::vector<std::array<float, 2>> Coordinates;
 };
 
@@ -48,6 +48,10 @@ struct TextureImage
 struct PropertyValues
 {
   std::array<PropertyField, NumberOfProperties> Fields;
+  /// For each triangle the numbers of the values at its corners, in fields and image; empty: they
+  /// are those of the surface's points. So cells that share a point may have values of their own.
+  std::vector<Triangle> Corners;
+  std::size_t NumberOfPointValues = 0; ///< that Corners go up to; unused where they are empty
   std::shared_ptr<const ForceProfile> Profile; ///< null: a linear spring
   std::shared_ptr<const TextureImage> Image;   ///< null: none; adds to the field's texture
   /// Force shading: interpolated normals. Default off.
@@ -55,6 +59,10 @@ struct PropertyValues
   /// Edges between facets that turn by more than this stay sharp under shading [degrees], 0 to 180.
   double FeatureAngle = 30.0;
 
+  const Triangle& CornersOf(const TriangleSurface& surface, std::size_t triangle) const
+  {
+    return this->Corners.empty() ? surface.Triangles()[triangle] : this->Corners[triangle];
+  }
   PropertyField& operator[](Property property) { return this->Fields[static_cast<int>(property)]; }
 
   /// The servo's stiffness and nothing else.
@@ -81,7 +89,8 @@ public:
   using Corners = std::array<double, 3>; ///< weights of a triangle's corners, sum 1
 
   /// The properties at a place of a triangle of the surface, as if it were all of the contact.
-  Material At(const Triangle& corners, std::int32_t triangle, const Corners& weights) const noexcept;
+  /// `points`: the triangle's corners.
+  Material At(const Triangle& points, std::int32_t triangle, const Corners& weights) const noexcept;
   bool IsShaded() const noexcept { return !this->Normals.empty(); }
   /// The interpolated normal there, surface frame, not of unit length. Only where IsShaded().
   Vec3 NormalAt(std::int32_t triangle, const Corners& weights) const noexcept;

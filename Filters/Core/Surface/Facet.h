@@ -1,11 +1,10 @@
 #ifndef Haptics_Facet_h
 #define Haptics_Facet_h
 
-#include "haptics/Math/NearestOnTriangle.h"
+#include "haptics/Math/AccurateCross.h"
 #include "haptics/Math/VectorMath.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace haptics
@@ -19,8 +18,10 @@ struct Facet
   Vector Corner[3];   ///< as given; Corner[Anchor] is the one opposite the longest edge
   Vector Normal{ 0 }; ///< unit; zero when the triangle has no area
   double LongestEdge = 0.0;
-  /// At least |e1||e2| / |e1 × e2| at the anchor: how many times rounding is amplified.
+  /// How many times rounding is amplified: at least |e1||e2| / |e1 × e2| at the anchor, or what is
+  /// left of that where the cross product is worked out in twice the digits.
   double Condition = HUGE_VAL;
+  double SmallestHeight = 0.0; ///< over the longest edge
   int Anchor = 0;
 
   Facet(const Vector& a, const Vector& b, const Vector& c)
@@ -34,14 +35,13 @@ struct Facet
     const int next = (this->Anchor + 1) % 3;
     const int last = (this->Anchor + 2) % 3;
     const Vector& v = this->Corner[this->Anchor];
-    const Vector n = glm::cross(this->Corner[next] - v, this->Corner[last] - v);
-    const double squaredLength = SquaredLength(n);
-    if (squaredLength > 0.0)
+    // The mean of the squared sides is at least their product, and needs no root.
+    const double sides = 0.5 * (squared[next] + squared[last]);
+    this->SetNormal(glm::cross(this->Corner[next] - v, this->Corner[last] - v), sides, 1.0);
+    if (!(this->Condition < WellConditioned))
     {
-      const double inverse = 1.0 / std::sqrt(squaredLength);
-      this->Normal = inverse * n;
-      // The mean of the squared sides is at least their product, and needs no root.
-      this->Condition = 0.5 * (squared[next] + squared[last]) * inverse;
+      this->SetNormal(
+        AccurateCross(v, this->Corner[next], this->Corner[last]), sides, ShareOfAccurateCross);
     }
   }
 
@@ -61,6 +61,23 @@ struct Facet
     return std::max(
       minimum, std::min(4.0 * this->DistanceError(distance), 1e-6 * this->LongestEdge));
   }
+
+  /// From this condition on a normal is worked out in twice the digits.
+  static constexpr double WellConditioned = 64.0;
+
+private:
+  /// `n`: along the normal, with an error of `share` times the roundings of a cross product.
+  void SetNormal(const Vector& n, double sides, double share)
+  {
+    const double squaredLength = SquaredLength(n);
+    if (squaredLength > 0.0)
+    {
+      const double inverse = 1.0 / std::sqrt(squaredLength);
+      this->Normal = inverse * n;
+      this->SmallestHeight = squaredLength * inverse / this->LongestEdge;
+      this->Condition = share < 1.0 ? 1.0 + share * sides * inverse : sides * inverse;
+    }
+  }
 };
 
 /// A facet is met a little beyond its edges, by so many clearances, where an edge is no other
@@ -71,9 +88,6 @@ constexpr double GrowthOverGaps = 4.0;
 /// at one clearance's height, and must not be held there.
 constexpr double GrowthOverSharedEdges = 0.25;
 
-/// How far a facet is taken to reach beyond each of its edges 0-1, 1-2 and 2-0.
-using Growth = std::array<double, 3>;
-
 /// How a point that is projected on a facet's plane lies.
 enum class Coverage
 {
@@ -82,40 +96,79 @@ enum class Coverage
   Own    ///< on the facet itself, or as good as that
 };
 
-/// How x lies over the triangle. It reaches beyond its edges by `growth` and no farther from its
-/// corners either, so that a needle ends where its tip is; within `own` of it is as good as on it.
-/// `normal` is the unit normal; its sign follows the corners' order. `nearest` is set where x is
-/// beyond the triangle and it reaches there: to its nearest point.
-inline Coverage CoverageOf(const Vector& normal, const Vector& a, const Vector& b, const Vector& c,
-  const Vector& x, const Growth& growth, double own, Vector& nearest)
+/// The nearest point to x on the triangle's edges, be they as close to one line as they may.
+inline Vector NearestOnEdges(const Vector& a, const Vector& b, const Vector& c, const Vector& x)
 {
-  double reach = -1.0;
-  const auto isWithin = [&](const Vector& from, const Vector& to, double width)
+  Vector nearest = a;
+  double least = HUGE_VAL;
+  const auto take = [&](const Vector& from, const Vector& to)
   {
     const Vector edge = to - from;
-    const double inward = glm::dot(glm::cross(normal, edge), x - from);
+    const double squared = SquaredLength(edge);
+    const double along =
+      squared > 0.0 ? std::clamp(glm::dot(x - from, edge) / squared, 0.0, 1.0) : 0.0;
+    const Vector point = from + along * edge;
+    const double distance = SquaredLength(x - point);
+    if (distance < least)
+    {
+      least = distance;
+      nearest = point;
+    }
+  };
+  take(a, b);
+  take(b, c);
+  take(c, a);
+  return nearest;
+}
+
+/// How x, projected on the triangle's plane, lies over it. The triangle reaches by `overGaps`
+/// beyond edges that are `isOpen()` and no farther from its corners, so that a needle ends where
+/// its tip is; within `own` of it is as good as on it. `normal` is the unit normal; its sign
+/// follows the corners' order. `nearest` is set with Coverage::Reach: to the triangle's nearest
+/// point.
+template <class EdgeTest>
+inline Coverage CoverageOf(const Vector& normal, const Vector& a, const Vector& b, const Vector& c,
+  const Vector& x, double own, double overGaps, const EdgeTest& isOpen, Vector& nearest)
+{
+  const Vector* const corners[4] = { &a, &b, &c, &a };
+  bool isInside = true;
+  double reach = own;
+  for (int k = 0; k < 3; ++k)
+  {
+    const Vector edge = *corners[k + 1] - *corners[k];
+    // Times the edge's length.
+    const double inward = glm::dot(glm::cross(normal, edge), x - *corners[k]);
+    const double squared = SquaredLength(edge);
+    const bool isNear = inward * inward <= own * own * squared;
+    if (inward > 0.0 && !isNear)
+    {
+      continue;
+    }
+    isInside = false;
     if (inward >= 0.0)
     {
-      return true;
+      continue;
     }
-    reach = std::max(reach, width);
-    return inward * inward <= width * width * SquaredLength(edge);
-  };
-  if (!isWithin(a, b, growth[0]) || !isWithin(b, c, growth[1]) || !isWithin(c, a, growth[2]))
-  {
-    return Coverage::None;
+    if (isOpen(k) && inward * inward <= overGaps * overGaps * squared)
+    {
+      reach = overGaps;
+    }
+    else if (!isNear)
+    {
+      return Coverage::None;
+    }
   }
-  if (reach < 0.0)
+  if (isInside)
   {
     return Coverage::Own;
   }
+  // Near an edge: which of a thin triangle's is certain only of its distance.
   const Vector y = x - glm::dot(normal, x - a) * normal;
-  const Vector way = NearestToOrigin(a - y, b - y, c - y);
-  nearest = y + way;
-  const double squared = SquaredLength(way);
-  return squared > reach * reach ? Coverage::None
-    : squared > own * own        ? Coverage::Reach
-                                 : Coverage::Own;
+  nearest = NearestOnEdges(a, b, c, y);
+  const double squared = SquaredLength(nearest - y);
+  return squared <= own * own ? Coverage::Own
+    : squared > reach * reach ? Coverage::None
+                              : Coverage::Reach;
 }
 
 /// The widest that any facet of a surface reaches beyond itself.
