@@ -97,6 +97,8 @@ bool HapticSurface::Pull(const PullSettings& settings, std::string& error)
   const Snapshot before = this->Touched();
   const Properties feltBefore = this->Felt();
   this->Follow(settings, error);
+  this->HasRefused = this->HasRefused ||
+    (!error.empty() && error != this->LastConnectError && error != this->LastMatrixError);
   if (!error.empty())
   {
     error += std::string(error.back() == '.' ? "" : ".") +
@@ -112,7 +114,7 @@ bool HapticSurface::Pull(const PullSettings& settings, std::string& error)
 
 void HapticSurface::Follow(const PullSettings& settings, std::string& error)
 {
-  this->WasUnseen = !this->Shown;
+  this->WasUnseen = !this->IsThere();
   this->IsElsewhere = false;
   this->Shown = !this->Source || (this->Source->GetVisibility() && this->Source->GetPickable());
   // One that goes on from a snapshot has to come after it.
@@ -166,6 +168,15 @@ void HapticSurface::Follow(const PullSettings& settings, std::string& error)
   // But where nobody steps there is nothing to wait for.
   const bool mayWait = settings.IsLive && !settings.IsTaken && this->InForce &&
     (settings.IsRunning || settings.Interval > 0.0 || this->IsWaiting);
+  if (this->Build && isNew && this->InForce)
+  {
+    std::string none; // told when its turn comes
+    vtkPolyData* geometry = this->UpdateGeometry(none);
+    if (geometry && geometry->GetNumberOfCells() == 0)
+    {
+      this->CancelBuild(); // what is being built is gone before it was there
+    }
+  }
   this->IsWaiting = !this->Build && isNew && mayWait;
   if (!this->Build && isNew && !mayWait)
   {
@@ -189,7 +200,8 @@ void HapticSurface::Follow(const PullSettings& settings, std::string& error)
   }
 }
 
-void HapticSurface::FollowGeometry(const PullSettings& settings, std::string& error)
+/// Null, and why, where what is connected is no polydata.
+vtkPolyData* HapticSurface::UpdateGeometry(std::string& error)
 {
   vtkAlgorithm* producer = this->Preparation->GetInputAlgorithm();
   const int port = this->Preparation->GetInputConnection(0, 0)->GetIndex();
@@ -200,6 +212,23 @@ void HapticSurface::FollowGeometry(const PullSettings& settings, std::string& er
   {
     error = std::string("the geometry is ") + (output ? output->GetClassName() : "missing") +
       ", not vtkPolyData; put a vtkGeometryFilter before it";
+  }
+  return geometry;
+}
+
+void HapticSurface::FollowGeometry(const PullSettings& settings, std::string& error)
+{
+  vtkPolyData* geometry = this->UpdateGeometry(error);
+  if (!geometry)
+  {
+    return;
+  }
+  this->HasRefused = false;
+  // A contour of a value that does not occur, and the like: nothing to touch. But points that never
+  // had cells are somebody's mistake.
+  this->IsEmpty = geometry->GetNumberOfCells() == 0;
+  if (this->IsEmpty && (this->InForce || geometry->GetNumberOfPoints() == 0))
+  {
     return;
   }
   this->PreparationError.clear();

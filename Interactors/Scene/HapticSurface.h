@@ -127,10 +127,16 @@ public:
   /// What the servo follows; null where the surface has no actor.
   std::shared_ptr<SurfaceMotion> Motion() const { return this->Moving; }
 
-  /// What is touched; null while the surface is hidden or was never any good.
-  Snapshot Touched() const { return this->Shown ? this->InForce : nullptr; }
-  /// How it feels; null while it is hidden or plain.
-  Properties Felt() const { return this->Shown ? this->Feel : nullptr; }
+  /// What is touched; null while the surface is hidden or empty, or was never any good.
+  Snapshot Touched() const { return this->IsThere() ? this->InForce : nullptr; }
+  /// How it feels; null while it is hidden, empty or plain.
+  Properties Felt() const { return this->IsThere() ? this->Feel : nullptr; }
+  /// Whether what is touched is an older geometry, because the newest is no good.
+  bool IsOutdated() const
+  {
+    return this->Touched() &&
+      (this->HasRefused || !this->LastConnectError.empty() || !this->LastMatrixError.empty());
+  }
   /// Adds the world's bounds of what is touched, or while that is null of what is being built.
   void AddBounds(vtkBoundingBox& box) const;
   /// The geometry in force, its triangles in the snapshot's order, with its arrays as they were at
@@ -157,6 +163,8 @@ private:
   Version Current();
   Matrix4 CurrentMatrix();
   void Follow(const PullSettings& settings, std::string& error);
+  bool IsThere() const { return this->Shown && !this->IsEmpty; }
+  vtkPolyData* UpdateGeometry(std::string& error);
   void FollowGeometry(const PullSettings& settings, std::string& error);
   bool FollowMatrix(const PullSettings& settings, std::string& error);
   void RefuseMatrix(std::string& error);
@@ -179,6 +187,8 @@ private:
   vtkNew<vtkGodObjectFilter> Preparation;
   vtkNew<vtkCallbackCommand> Listener;
   bool Shown = true;
+  bool IsEmpty = false;    ///< the geometry has no cells
+  bool HasRefused = false; ///< the newest geometry
   bool Gripped = false;
   bool Carried = false;
   bool Tried = false;

@@ -154,6 +154,11 @@ public:
   ///@}
   /** Whether a surface can be felt now: shown, not gripped, its geometry good at least once. */
   bool IsSurfaceTouchable(int id);
+  /**
+   * Whether what is touched of a surface is older than what is shown, because its newest geometry
+   * or matrix is no good; the error said why. The read-out says so while it is touched.
+   */
+  bool IsSurfaceOutdated(int id);
 
   ///@{
   /**

@@ -44,9 +44,10 @@ void vtkHapticScene::ShowInPicture()
 std::string vtkHapticScene::DescribeContact()
 {
   const std::string contact = this->GetProbe()->GetText();
-  const char* state = this->Squeezed ? "surfaces leave no room here: no force"
-    : this->Overloaded               ? "too many triangles here: held"
-                                     : "";
+  const char* state = this->Squeezed                ? "surfaces leave no room here: no force"
+    : this->Overloaded                              ? "too many triangles here: held"
+    : this->IsSurfaceOutdated(this->TouchedSurface) ? "older than shown: the newest is no good"
+                                                    : "";
   return contact + (contact.empty() || !*state ? "" : "\n") + state;
 }
 

@@ -204,6 +204,12 @@ bool vtkHapticScene::IsSurfaceTouchable(int id)
   return surface && surface->Touched() && !surface->IsGripped();
 }
 
+bool vtkHapticScene::IsSurfaceOutdated(int id)
+{
+  const haptics::HapticSurface* surface = this->Internal->Surfaces.Find(id);
+  return surface && surface->IsOutdated();
+}
+
 void vtkHapticScene::SetBackgroundBuilding(bool background)
 {
   if (background != this->Internal->BackgroundBuilding)

@@ -99,7 +99,15 @@ TEST(HapticScene, KeepsWhatItTouchesWhenItsGeometryTurnsBadAndSaysWhyOnce)
     void (*Spoil)(vtkPolyData*);
   };
   const Case cases[] = {
-    { "empty", [](vtkPolyData* p) { p->Initialize(); } },
+    { "without an area",
+      [](vtkPolyData* p)
+      {
+        for (vtkIdType i = 0; i < p->GetNumberOfPoints(); ++i)
+        {
+          p->GetPoints()->SetPoint(i, 0.0, 0.0, 0.0);
+        }
+        p->GetPoints()->Modified();
+      } },
     { "not finite",
       [](vtkPolyData* p)
       {
@@ -138,6 +146,7 @@ TEST(HapticScene, ASurfaceThatWasNeverGoodIsFreeSpaceUntilItIs)
 {
   LedHand hand;
   vtkNew<vtkPolyData> table;
+  table->SetPoints(MakeTable(0.0)->GetPoints()); // and no cells
   const int id = hand.Scene->AddSurface(table);
   {
     EventCounter errors(hand.Scene, vtkCommand::ErrorEvent);

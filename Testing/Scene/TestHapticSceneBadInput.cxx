@@ -99,7 +99,12 @@ TEST(HapticSceneBadInput, ASurfaceSpoiltWhileTouchedStaysAsItWasAndSaysWhy)
   const Way ways[] = {
     { "mapper", [](PressingHand& hand) { hand.Actor->SetMapper(nullptr); } },
     { "no input", [](PressingHand& hand) { hand.Mapper->RemoveAllInputs(); } },
-    { "", [](PressingHand& hand) { hand.Table->Initialize(); } },
+    { "no polygon",
+      [](PressingHand& hand)
+      {
+        hand.Table->SetLines(hand.Table->GetPolys());
+        hand.Table->SetPolys(nullptr);
+      } },
     { "flattens", [](PressingHand& hand) { hand.Actor->SetScale(1.0, 1.0, 0.0); } },
     { "flattens", [](PressingHand& hand) { hand.Actor->SetScale(0.0); } },
     { "not finite", [](PressingHand& hand) { hand.Actor->SetPosition(0.0, std::nan(""), 0.0); } },
@@ -139,9 +144,8 @@ TEST(HapticSceneBadInput, FlatAndSinglePointSurfacesAreErrorsAndNothingIsFelt)
   vtkNew<vtkPoints> points;
   points->InsertNextPoint(0.01, 0.02, 0.0);
   lone->SetPoints(points);
-  vtkNew<vtkPolyData> empty;
-  for (const vtkSmartPointer<vtkPolyData>& surface : { MakeTriangle(line), MakeTriangle(point),
-         vtkSmartPointer<vtkPolyData>(lone), vtkSmartPointer<vtkPolyData>(empty) })
+  for (const vtkSmartPointer<vtkPolyData>& surface :
+    { MakeTriangle(line), MakeTriangle(point), vtkSmartPointer<vtkPolyData>(lone) })
   {
     LedHand hand;
     EventCounter errors(hand.Scene, vtkCommand::ErrorEvent);

@@ -448,7 +448,8 @@ TEST(SceneEvents, ProbesAndMessagesCallASurfaceByItsName)
   EXPECT_EQ(hand.Scene->GetProbe()->GetText().rfind("table   cell 0", 0), 0U)
     << hand.Scene->GetProbe()->GetText();
   EventCounter errors(hand.Scene, vtkCommand::ErrorEvent);
-  table->Initialize();
+  table->SetLines(table->GetPolys());
+  table->SetPolys(nullptr);
   hand.Scene->Step(1);
   EXPECT_EQ(std::string(hand.Scene->GetErrorMessage()).rfind("Surface 0 (table): ", 0), 0U)
     << hand.Scene->GetErrorMessage();

@@ -223,7 +223,8 @@ TEST(SurfaceSwaps, ATimeStepThatIsNoGoodMakesNoStepAndTheSeriesGoesOnFromTheLast
     }
     if (step == 9)
     {
-      next->Initialize();
+      next->SetLines(next->GetPolys());
+      next->SetPolys(nullptr);
     }
     hand.Producer->SetOutput(next);
     hand.Scene->Step(33);
@@ -234,4 +235,58 @@ TEST(SurfaceSwaps, ATimeStepThatIsNoGoodMakesNoStepAndTheSeriesGoesOnFromTheLast
   EXPECT_NEAR(hand.Scene->GetGodObject()[2], 0.012, 1e-6);
   // After a gap the surface makes up for two time steps in one: twice S8's 0.015 N.
   EXPECT_LE(hand.LargestGrowth(start), 0.05);
+}
+
+// A contour of a value that nothing has any more, a threshold, a time step before the first part.
+TEST(SurfaceSwaps, WhatHasVanishedIsNotFeltAndNoError)
+{
+  for (const bool inBackground : { false, true })
+  {
+    Sheet hand;
+    hand.Scene->SetBackgroundBuilding(inBackground);
+    EventCounter errors(hand.Scene, vtkCommand::ErrorEvent);
+    vtkNew<vtkPolyData> empty;
+    if (inBackground)
+    {
+      hand.Producer->SetOutput(MakeSheet(0.0005)); // which is not there any more when it is built
+      hand.Scene->Update();
+    }
+    hand.Producer->SetOutput(empty);
+    hand.Scene->Step(1);
+    EXPECT_EQ(hand.Force(), 0.0) << "in the tick itself";
+    EXPECT_FALSE(hand.Scene->GetTouching());
+    EXPECT_FALSE(hand.Scene->IsSurfaceTouchable(0));
+    hand.Scene->Step(100);
+    EXPECT_EQ(hand.Force(), 0.0);
+    hand.Show(0.0, 100); // it is there again, above the hand, and pushes nothing
+    EXPECT_TRUE(hand.Scene->IsSurfaceTouchable(0));
+    EXPECT_EQ(hand.Force(), 0.0);
+    hand.MoveTo(0.002, 100);
+    EXPECT_GT(hand.Force(), 0.9) << "from below";
+    EXPECT_FALSE(hand.Scene->IsSurfaceOutdated(0));
+    EXPECT_EQ(errors.Count, 0) << hand.Scene->GetErrorMessage();
+  }
+}
+
+TEST(SurfaceSwaps, OnlyWhatIsBadKeepsTheLastAndSaysSoUntilItIsGood)
+{
+  Sheet hand;
+  EventCounter errors(hand.Scene, vtkCommand::ErrorEvent);
+  vtkSmartPointer<vtkPolyData> bad = MakeSheet(0.0);
+  bad->GetPoints()->SetPoint(200, 0.0, 0.0, std::numeric_limits<double>::quiet_NaN());
+  hand.Producer->SetOutput(bad);
+  hand.Scene->Step(10);
+  EXPECT_GT(hand.Force(), 0.9);
+  EXPECT_TRUE(hand.Scene->IsSurfaceOutdated(0));
+  EXPECT_EQ(errors.Count, 1);
+  hand.Show(0.0, 10);
+  EXPECT_GT(hand.Force(), 0.9);
+  EXPECT_FALSE(hand.Scene->IsSurfaceOutdated(0));
+  hand.Producer->SetOutput(bad);
+  hand.Scene->Step(10);
+  vtkNew<vtkPolyData> empty;
+  hand.Producer->SetOutput(empty);
+  hand.Scene->Step(100); // what deforms arrives first
+  EXPECT_EQ(hand.Force(), 0.0) << "empty is good";
+  EXPECT_FALSE(hand.Scene->IsSurfaceOutdated(0));
 }
