@@ -63,7 +63,9 @@ endfunction ()
 
 function (haptics_add_python_test name script)
   cmake_parse_arguments(PARSE_ARGV 2 arg "PVPYTHON;SERIAL" "FIXTURE" "ARGS")
+  set(cost 0)
   if (arg_PVPYTHON)
+    set(cost 10) # the longest ones begin first, so that none is left alone at the end
     set(interpreter "$<TARGET_FILE:ParaView::pvpython>" --force-offscreen-rendering)
   else ()
     set(interpreter "${Python3_EXECUTABLE}")
@@ -76,6 +78,7 @@ function (haptics_add_python_test name script)
     LABELS            "haptics"
     RUN_SERIAL        "${arg_SERIAL}"
     SKIP_RETURN_CODE  77
+    COST              "${cost}"
     FIXTURES_REQUIRED "${arg_FIXTURE}"
     ENVIRONMENT       "${haptics_test_environment}")
 endfunction ()
