@@ -75,7 +75,7 @@ std::optional<double> Meet(
 }
 }
 
-std::optional<double> CastRay(
+std::optional<RayHit> CastRay(
   const TriangleSurface& surface, const Vec3& from, const Vec3& direction)
 {
   const Vec3 local = Minus(from, surface.Origin());
@@ -97,7 +97,7 @@ std::optional<double> CastRay(
     std::iota(candidates.begin(), candidates.end(), 0);
     found.Count = count;
   }
-  std::optional<double> nearest;
+  std::optional<RayHit> nearest;
   for (std::int32_t i = 0; i < found.Count; ++i)
   {
     const std::int32_t id = candidates[static_cast<std::size_t>(i)];
@@ -106,10 +106,15 @@ std::optional<double> CastRay(
     { return surface.Points()[static_cast<std::size_t>(triangle[k])]; };
     const std::optional<double> t =
       Meet(local, direction, corner(0), corner(1), corner(2), !surface.TouchesBack(id));
-    if (t && (!nearest || *t < *nearest))
+    if (t && (!nearest || *t < nearest->Distance))
     {
-      nearest = t;
+      const Vec3 normal = Cross(Minus(corner(1), corner(0)), Minus(corner(2), corner(0)));
+      nearest = RayHit{ *t, Dot(normal, direction) > 0.0 ? Along({}, normal, -1.0) : normal };
     }
+  }
+  if (nearest)
+  {
+    vtkMath::Normalize(nearest->Normal.data());
   }
   return nearest;
 }

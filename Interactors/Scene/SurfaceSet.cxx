@@ -146,18 +146,22 @@ std::vector<TouchedSurface> SurfaceSet::Touched() const
   return touched;
 }
 
-std::optional<double> SurfaceSet::CastRay(const Vec3& from, const Vec3& direction) const
+std::optional<RayHit> SurfaceSet::CastRay(const Vec3& from, const Vec3& direction) const
 {
-  std::optional<double> nearest;
+  std::optional<RayHit> nearest;
   for (const auto& surface : this->Surfaces)
   {
     const HapticSurface::Snapshot snapshot = surface->Touched();
     if (snapshot && !surface->IsGripped())
     {
       const RigidPose& pose = surface->Pose();
-      const std::optional<double> t =
+      std::optional<RayHit> hit =
         haptics::CastRay(*snapshot, pose.PointToSurface(from), pose.VectorToSurface(direction));
-      nearest = t && (!nearest || *t < *nearest) ? t : nearest;
+      if (hit && (!nearest || hit->Distance < nearest->Distance))
+      {
+        hit->Normal = pose.VectorToWorld(hit->Normal);
+        nearest = hit;
+      }
     }
   }
   return nearest;

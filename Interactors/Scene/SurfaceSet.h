@@ -3,6 +3,7 @@
 
 #include "haptics/Contact/TouchedSurface.h"
 #include "haptics/Scene/HapticSurface.h"
+#include "haptics/Scene/SurfaceRay.h"
 #include "haptics/Tick/TickRecord.h"
 
 #include <cstdint>
@@ -66,7 +67,7 @@ public:
   /// What a god-object is to touch now.
   std::vector<TouchedSurface> Touched() const;
   /// Where a ray first meets what is touched, in lengths of `direction`; world frame.
-  std::optional<double> CastRay(const Vec3& from, const Vec3& direction) const;
+  std::optional<RayHit> CastRay(const Vec3& from, const Vec3& direction) const;
   /// Remembers what Touched() gave under the number it was published with.
   void Published(std::uint64_t generation);
   /// Forgets what was published before `generation`.

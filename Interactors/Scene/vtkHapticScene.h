@@ -208,11 +208,16 @@ public:
   vtkMatrix4x4* GetWorkspaceTransform();
   ///@}
 
+  ///@{
   /**
-   * Where a ray first meets a surface that can be touched, on a side that can be touched; world
-   * frame, `direction` of any length. False, and `hit` as it was, where it meets none.
+   * Where a ray first meets a surface that can be touched, on a side that can be touched, and the
+   * normal of the triangle there, of unit length and against the ray; world frame, `direction` of
+   * any length. False, and the rest as it was, where it meets none.
    */
   bool IntersectRay(const double from[3], const double direction[3], double hit[3]);
+  bool IntersectRay(
+    const double from[3], const double direction[3], double hit[3], double normal[3]);
+  ///@}
 
   /**
    * Maps the device's workspace to the bounds of the surfaces that can be touched, as small as

@@ -321,11 +321,19 @@ bool vtkHapticScene::PullSurfaces()
 
 bool vtkHapticScene::IntersectRay(const double from[3], const double direction[3], double hit[3])
 {
-  const std::optional<double> nearest = this->Internal->Surfaces.CastRay(
+  double normal[3];
+  return this->IntersectRay(from, direction, hit, normal);
+}
+
+bool vtkHapticScene::IntersectRay(
+  const double from[3], const double direction[3], double hit[3], double normal[3])
+{
+  const std::optional<haptics::RayHit> nearest = this->Internal->Surfaces.CastRay(
     { { from[0], from[1], from[2] } }, { { direction[0], direction[1], direction[2] } });
   for (int i = 0; nearest && i < 3; ++i)
   {
-    hit[i] = from[i] + *nearest * direction[i];
+    hit[i] = from[i] + nearest->Distance * direction[i];
+    normal[i] = nearest->Normal[static_cast<std::size_t>(i)];
   }
   return nearest.has_value();
 }

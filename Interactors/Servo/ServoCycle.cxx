@@ -88,6 +88,10 @@ bool ServoCycle::Tick(double time) noexcept
     god.Object->Place(hip);
     this->Guard.StartSoftly(settings.Safety);
   }
+  else if (this->DevicePlacements != sample.Placements && IsFinite(sample.Place))
+  {
+    god.Object->Place(settings.DeviceToWorld.PointToWorld(sample.Place));
+  }
   else if (!settings.IsClutched &&
     (this->WasClutched || this->DeviceToWorld != settings.DeviceToWorld))
   {
@@ -98,6 +102,7 @@ bool ServoCycle::Tick(double time) noexcept
     this->Guard.NoticeJump();
   }
   this->Placements = settings.Placements;
+  this->DevicePlacements = sample.Placements;
   this->WasClutched = settings.IsClutched;
   this->DeviceToWorld = settings.DeviceToWorld;
   this->IsFirst = false;

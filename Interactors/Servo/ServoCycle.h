@@ -115,6 +115,7 @@ private:
   bool WasClutched = false;
   WorkspaceTransform DeviceToWorld; // of the last tick
   std::uint64_t Placements = 0;
+  std::uint32_t DevicePlacements = 0;
 };
 }
 

@@ -14,40 +14,98 @@
 #include "vtkRenderWindow.h"
 #include "vtkRenderWindowInteractor.h"
 #include "vtkRenderer.h"
+#include "vtkTimerLog.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 
 vtkStandardNewMacro(vtkMouseHapticDevice);
 
 namespace
 {
-constexpr double Arrived = 1e-7;      // [m]: less than a hand can tell; then it is there
-constexpr double HoverHeight = 0.004; // [m] above the surface when the hand lifts off
-constexpr int RepeatDelay = 40;       // [ms] in which a held key's next press follows its release
-constexpr double FreeSteps = 5.0;     // a notch in free space goes this many times as far
+constexpr double Arrived = 1e-7;       // [m]: less than a hand can tell; then it is there
+constexpr double HoverHeight = 0.001;  // [m] above the surface, towards the viewer
+constexpr int RepeatDelay = 25;        // [ms] in which a held key's next press follows its release
+constexpr double StartHeight = 5e-5;   // [m] from which a hand goes in that is put down pressing
+constexpr double CarrySteps = 5.0;     // a notch carries this many times as far as it presses
+constexpr double SteepestStep = 0.5;   // sine between step and surface; beyond, there is an edge
+constexpr double SharpestEdge = 0.9;   // cosine between normals; a hand does not slide over sharper
+constexpr double Shallow = 0.02;       // of the depth may be missing
+constexpr double DeepeningShare = 0.3; // of what is missing, at each look
+constexpr double StrayPixels = 12.0;   // more from the cursor than that is astray
+constexpr double StrayDepth = 1.2;     // as is a hand that is deeper than it was told
+constexpr double StrayTime = 0.05;     // [s] after which a hand that is astray is put down anew
+
+enum MouseButton : unsigned int
+{
+  LeftButton = 1,
+  MiddleButton = 2,
+  RightButton = 4
+};
 }
 
-/// The servo's end: a hand that is drawn to the mouse's position.
+/// The servo's end: a hand that is drawn to the mouse's position, or put down there.
 class vtkMouseHapticDevice::MouseChannel : public haptics::MonitoredChannel
 {
 public:
+  /// Where the hand is to go, and whether it starts from another place than the one it is at.
+  struct Order
+  {
+    std::array<double, 3> Target{};
+    std::array<double, 3> Place{};
+    std::uint32_t Placements = 0; ///< whenever it changes the hand is there at once, from Place
+  };
+
   MouseChannel(const std::array<double, 3>& target, double smoothing)
     : Smoothing(smoothing)
-    , Wanted(target)
+    , Wanted(Order{ target, target, 0 })
     , Hand(target)
   {
+    this->Latest.Target = target;
   }
 
-  void Want(const std::array<double, 3>& target) { this->Wanted.Publish(target); }
+  void Move(const std::array<double, 3>& target)
+  {
+    this->Latest.Target = target;
+    this->Wanted.Publish(this->Latest);
+  }
+
+  void Place(const std::array<double, 3>& place, const std::array<double, 3>& target)
+  {
+    this->Latest.Place = place;
+    ++this->Latest.Placements;
+    this->Move(target);
+  }
 
 protected:
   bool ReadDevice(double time, haptics::DeviceSample& sample) noexcept override
   {
     this->Wanted.Update();
-    const std::array<double, 3>& target = this->Wanted.Get();
-    const double elapsed = std::max(0.0, time - this->LastTime);
+    const Order& order = this->Wanted.Get();
+    if (order.Placements != this->Placements)
+    {
+      this->Placements = order.Placements;
+      this->Hand = order.Target;
+    }
+    else
+    {
+      this->Approach(order.Target, std::max(0.0, time - this->LastTime));
+    }
+    this->LastTime = time;
+    sample.Position = this->Hand;
+    sample.Buttons = 0;
+    sample.Placements = this->Placements;
+    sample.Place = order.Place;
+    return true;
+  }
+
+  void WriteDevice(const std::array<double, 3>&) noexcept override {}
+
+private:
+  void Approach(const std::array<double, 3>& target, double elapsed) noexcept
+  {
     const double share = this->Smoothing > 0.0 ? 1.0 - std::exp(-elapsed / this->Smoothing) : 1.0;
     double left = 0.0;
     for (int i = 0; i < 3; ++i)
@@ -59,18 +117,13 @@ protected:
     {
       this->Hand = target;
     }
-    this->LastTime = time;
-    sample.Position = this->Hand;
-    sample.Buttons = 0;
-    return true;
   }
 
-  void WriteDevice(const std::array<double, 3>&) noexcept override {}
-
-private:
   const double Smoothing;
-  haptics::LatestValue<std::array<double, 3>> Wanted;
-  std::array<double, 3> Hand; // the servo thread's
+  Order Latest; // the GUI thread's
+  haptics::LatestValue<Order> Wanted;
+  std::array<double, 3> Hand; // the servo thread's, as what follows
+  std::uint32_t Placements = 0;
   double LastTime = 0.0;
 };
 
@@ -81,6 +134,9 @@ struct vtkMouseHapticDevice::View
   double Forward[3];   ///< unit
   double From[3];      ///< a point of the ray
   double Direction[3]; ///< one unit of depth long
+  double Near;         ///< depth at which rays begin
+  bool IsParallel;
+  double Pixel[2]; ///< the width of a pixel [world unit]: at depth d, Pixel[0] + d Pixel[1]
 
   double Depth(const double point[3]) const
   {
@@ -88,12 +144,24 @@ struct vtkMouseHapticDevice::View
     vtkMath::Subtract(point, this->Eye, toPoint);
     return vtkMath::Dot(toPoint, this->Forward);
   }
+  /// The ray that meets a point.
+  void RayOf(const double point[3], double from[3], double direction[3]) const
+  {
+    const double depth = this->Depth(point);
+    for (int i = 0; i < 3; ++i)
+    {
+      direction[i] =
+        this->IsParallel ? this->Forward[i] : (point[i] - this->Eye[i]) / std::max(depth, 1e-300);
+      from[i] = point[i] - (depth - this->Near) * direction[i];
+    }
+  }
+  /// The point of the ray at a depth.
   void At(double depth, double point[3]) const
   {
     const double t = depth - this->Depth(this->From);
     for (int i = 0; i < 3; ++i)
     {
-      point[i] = this->From[i] + t * this->Direction[i];
+      point[i] = this->From[i] + t * this->Direction[i]; // `point` may be From
     }
   }
 };
@@ -107,6 +175,10 @@ vtkMouseHapticDevice::vtkMouseHapticDevice()
   std::copy(bounds, bounds + 6, this->WorkspaceBounds);
   this->Callback->SetClientData(this);
   this->Callback->SetCallback(vtkMouseHapticDevice::OnEvent);
+  // Passive: a style that moves the camera takes all other observers' events.
+  this->ButtonCallback->SetClientData(this);
+  this->ButtonCallback->SetCallback(vtkMouseHapticDevice::OnButton);
+  this->ButtonCallback->SetPassiveObserver(1);
 }
 
 vtkMouseHapticDevice::~vtkMouseHapticDevice()
@@ -128,6 +200,8 @@ void vtkMouseHapticDevice::Close()
 {
   this->Mouse.reset();
   this->Pressed = false;
+  this->IsPressing = false;
+  this->WheelDepth = 0.0;
   this->BecomeClosed();
 }
 
@@ -141,6 +215,7 @@ void vtkMouseHapticDevice::SetInteractor(vtkRenderWindowInteractor* interactor)
   {
     this->ForgetRelease();
     this->Interactor->RemoveObserver(this->Callback);
+    this->Interactor->RemoveObserver(this->ButtonCallback);
   }
   this->ReleaseTimer = 0;
   this->Interactor = interactor;
@@ -151,9 +226,17 @@ void vtkMouseHapticDevice::SetInteractor(vtkRenderWindowInteractor* interactor)
     for (const unsigned long event :
       { vtkCommand::MouseMoveEvent, vtkCommand::MouseWheelForwardEvent,
         vtkCommand::MouseWheelBackwardEvent, vtkCommand::KeyPressEvent, vtkCommand::KeyReleaseEvent,
-        vtkCommand::LeaveEvent, vtkCommand::TimerEvent })
+        vtkCommand::LeaveEvent, vtkCommand::TimerEvent, vtkCommand::LeftButtonPressEvent,
+        vtkCommand::LeftButtonReleaseEvent })
     {
       interactor->AddObserver(event, this->Callback, beforeStyles);
+    }
+    for (const unsigned long event :
+      { vtkCommand::LeftButtonPressEvent, vtkCommand::LeftButtonReleaseEvent,
+        vtkCommand::MiddleButtonPressEvent, vtkCommand::MiddleButtonReleaseEvent,
+        vtkCommand::RightButtonPressEvent, vtkCommand::RightButtonReleaseEvent })
+    {
+      interactor->AddObserver(event, this->ButtonCallback, beforeStyles);
     }
   }
   this->Modified();
@@ -197,38 +280,40 @@ bool vtkMouseHapticDevice::Handle(unsigned long event, void* callData)
 {
   if (event == vtkCommand::TimerEvent)
   {
-    const bool isMine =
-      this->ReleaseTimer && callData && *static_cast<int*>(callData) == this->ReleaseTimer;
-    if (isMine)
-    {
-      this->ReleaseTimer = 0; // VTK takes it away; not to be destroyed while it fires
-      this->SetPressed(false);
-    }
-    return isMine; // the trackball takes any timer for its own
+    return this->HandleTimer(callData);
+  }
+  const bool isInUse = this->IsInUse();
+  if (!isInUse)
+  {
+    this->ForgetRelease();
+    this->Pressed = false; // a key that is let go of now is not heard
+    this->IsPressing = false;
+    this->WheelDepth = 0.0;
+  }
+  if (event == vtkCommand::LeftButtonPressEvent || event == vtkCommand::LeftButtonReleaseEvent)
+  {
+    return this->HandleButton(event);
+  }
+  if (!isInUse)
+  {
+    return false;
   }
   const int* position = this->Interactor->GetEventPosition();
   const char* key = this->Interactor->GetKeySym();
   const bool space = key && std::strcmp(key, "space") == 0;
   auto* style = vtkInteractorStyle::SafeDownCast(this->Interactor->GetInteractorStyle());
-  const bool draggingTheCamera = style && style->GetState() != VTKIS_NONE;
-  if (!this->IsInUse())
-  {
-    this->ForgetRelease();
-    this->Pressed = false; // a key that is let go of now is not heard
-    return false;
-  }
-  if (draggingTheCamera)
-  {
-    return false;
-  }
+  const bool isCamerasTurn = this->ButtonsHeld != 0 || (style && style->GetState() != VTKIS_NONE);
   switch (event)
   {
     case vtkCommand::MouseMoveEvent:
-      this->MoveTo(position[0], position[1]);
-      return false;
+      if (!isCamerasTurn)
+      {
+        this->MoveTo(position[0], position[1]);
+      }
+      return this->ShiftPresses; // or the style would move the camera
     case vtkCommand::MouseWheelForwardEvent:
     case vtkCommand::MouseWheelBackwardEvent:
-      if (this->Interactor->GetControlKey())
+      if (isCamerasTurn || this->Interactor->GetControlKey())
       {
         return false;
       }
@@ -239,6 +324,10 @@ bool vtkMouseHapticDevice::Handle(unsigned long event, void* callData)
     case vtkCommand::KeyReleaseEvent:
       if (space)
       {
+        if (!isCamerasTurn)
+        {
+          std::copy(position, position + 2, this->Cursor);
+        }
         this->HandleSpace(event == vtkCommand::KeyPressEvent);
       }
       return space;
@@ -247,6 +336,54 @@ bool vtkMouseHapticDevice::Handle(unsigned long event, void* callData)
       this->SetPressed(false);
       return false;
   }
+}
+
+bool vtkMouseHapticDevice::HandleTimer(void* callData)
+{
+  const bool isMine =
+    this->ReleaseTimer && callData && *static_cast<int*>(callData) == this->ReleaseTimer;
+  if (isMine)
+  {
+    this->ReleaseTimer = 0; // VTK takes it away; not to be destroyed while it fires
+    this->SetPressed(false);
+  }
+  this->WatchContact();
+  return isMine; // the trackball takes any timer for its own
+}
+
+/// Left with Shift presses. True where nobody else is to see it.
+bool vtkMouseHapticDevice::HandleButton(unsigned long event)
+{
+  const bool isPress = event == vtkCommand::LeftButtonPressEvent;
+  if (!this->ShiftPresses && !(isPress && this->Interactor->GetShiftKey() && this->IsInUse()))
+  {
+    return false;
+  }
+  this->ShiftPresses = isPress;
+  this->ButtonsHeld &= ~static_cast<unsigned int>(LeftButton); // it is not the camera's
+  std::copy_n(this->Interactor->GetEventPosition(), 2, this->Cursor);
+  this->SetPressed(isPress);
+  return true;
+}
+
+/// Keeps count of the buttons with which the mouse is the camera's.
+void vtkMouseHapticDevice::OnButton(vtkObject*, unsigned long event, void* clientData, void*)
+{
+  auto* self = static_cast<vtkMouseHapticDevice*>(clientData);
+  unsigned int button = RightButton;
+  if (event == vtkCommand::LeftButtonPressEvent || event == vtkCommand::LeftButtonReleaseEvent)
+  {
+    button = LeftButton;
+  }
+  else if (event == vtkCommand::MiddleButtonPressEvent ||
+    event == vtkCommand::MiddleButtonReleaseEvent)
+  {
+    button = MiddleButton;
+  }
+  const bool isPress = event == vtkCommand::LeftButtonPressEvent ||
+    event == vtkCommand::MiddleButtonPressEvent || event == vtkCommand::RightButtonPressEvent;
+  self->ButtonsHeld = isPress ? self->ButtonsHeld | button : self->ButtonsHeld & ~button;
+  self->Waiting = self->Waiting || self->ButtonsHeld != 0;
 }
 
 void vtkMouseHapticDevice::HandleSpace(bool down)
@@ -297,14 +434,25 @@ bool vtkMouseHapticDevice::Look(View& view)
       ends[i][j] /= ends[i][3];
     }
   }
-  std::copy(ends[0], ends[0] + 3, view.From);
-  vtkMath::Subtract(ends[1], ends[0], view.Direction);
+  // From the eye, not from the near plane, which may lie behind what is not drawn yet.
+  view.IsParallel = camera->GetParallelProjection() != 0;
+  const double* begin = view.IsParallel ? ends[0] : view.Eye;
+  vtkMath::Subtract(ends[1], begin, view.Direction);
   const double deep = vtkMath::Dot(view.Direction, view.Forward);
   if (!(deep > 0.0) || !std::isfinite(deep))
   {
     return false;
   }
   vtkMath::MultiplyScalar(view.Direction, 1.0 / deep);
+  view.Near =
+    view.IsParallel ? -10.0 * (camera->GetDistance() + camera->GetClippingRange()[1]) : 0.0;
+  std::copy(begin, begin + 3, view.From);
+  view.At(view.Near, view.From);
+  const double height = std::max(1, renderer->GetSize()[1]);
+  view.Pixel[0] = view.IsParallel ? 2.0 * camera->GetParallelScale() / height : 0.0;
+  view.Pixel[1] = view.IsParallel
+    ? 0.0
+    : 2.0 * std::tan(0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle())) / height;
   return true;
 }
 
@@ -313,38 +461,215 @@ double vtkMouseHapticDevice::Scale()
   return std::cbrt(this->Scene->GetWorkspaceTransform()->Determinant());
 }
 
-double vtkMouseHapticDevice::DepthOfTarget(const View& view)
+/// Device depth that the hand is to press [m]; 0 in the air.
+double vtkMouseHapticDevice::PressingDepth()
 {
-  const double target[4] = { this->Target[0], this->Target[1], this->Target[2], 1.0 };
-  double world[4];
-  this->Scene->GetWorkspaceTransform()->MultiplyPoint(target, world);
-  return view.Depth(world);
+  return this->Pressed ? std::max(this->PressDepth, this->WheelDepth) : this->WheelDepth;
 }
 
-bool vtkMouseHapticDevice::DepthOfSurface(const View& view, double& depth)
+bool vtkMouseHapticDevice::IsCarrying()
+{
+  return this->Scene && this->Scene->GetGrippedSurface() >= 0;
+}
+
+/// Takes in what is under the cursor. False, and all as it was, where that is nothing.
+bool vtkMouseHapticDevice::Find(const View& view)
 {
   double hit[3];
-  if (this->Scene->GetGrippedSurface() >= 0)
-  {
-    return false; // what lies behind the part in the hand is not what the hand means
-  }
-  if (!this->Scene->IntersectRay(view.From, view.Direction, hit))
+  double normal[3];
+  if (!this->Scene->IntersectRay(view.From, view.Direction, hit, normal))
   {
     return false;
   }
-  depth = view.Depth(hit);
+  const double depth = view.Depth(hit);
+  view.At(depth - HoverHeight * this->Scale(), this->Hover);
+  std::copy(hit, hit + 3, this->Hit);
+  std::copy(normal, normal + 3, this->Normal);
+  this->Pixel = view.Pixel[0] + depth * view.Pixel[1];
   return true;
 }
 
-void vtkMouseHapticDevice::MoveWithin(const View& view, double depth)
+void vtkMouseHapticDevice::ToDevice(const double world[3], double device[3])
 {
-  double world[4] = { 0.0, 0.0, 0.0, 1.0 };
-  view.At(depth, world);
   vtkNew<vtkMatrix4x4> toDevice;
   vtkMatrix4x4::Invert(this->Scene->GetWorkspaceTransform(), toDevice);
-  double device[4];
-  toDevice->MultiplyPoint(world, device);
-  this->SetTarget(device[0], device[1], device[2]);
+  const double point[4] = { world[0], world[1], world[2], 1.0 };
+  double result[4];
+  toDevice->MultiplyPoint(point, result);
+  std::copy(result, result + 3, device);
+}
+
+/// Draws the hand to `world`, from `place` where that is not null.
+void vtkMouseHapticDevice::Want(const double world[3], const double* place)
+{
+  double target[3];
+  this->ToDevice(world, target);
+  if (place && this->Mouse)
+  {
+    std::array<double, 3> start;
+    this->ToDevice(place, start.data());
+    if (std::isfinite(start[0] + start[1] + start[2]) &&
+      std::isfinite(target[0] + target[1] + target[2]))
+    {
+      std::copy(target, target + 3, this->Target.begin());
+      this->Mouse->Place(start, this->Target);
+      return;
+    }
+  }
+  this->SetTarget(target[0], target[1], target[2]);
+}
+
+/// Brings the hand to where the cursor is: over the surface, or into it. While it presses it goes
+/// there through the surface's inside, with the god-object on the surface, unless the way leads
+/// over an edge, or `mustPlace`; else it is put down there.
+void vtkMouseHapticDevice::Follow(bool mustPlace)
+{
+  View view;
+  if (!this->Look(view))
+  {
+    return;
+  }
+  if (this->IsCarrying())
+  {
+    double hand[4] = { this->Target[0], this->Target[1], this->Target[2], 1.0 };
+    this->Scene->GetWorkspaceTransform()->MultiplyPoint(hand, hand);
+    this->Carry(view, view.Depth(hand));
+    return;
+  }
+  double before[2][3];
+  std::copy(this->Hit, this->Hit + 3, before[0]);
+  std::copy(this->Normal, this->Normal + 3, before[1]);
+  this->Waiting = !this->Find(view);
+  if (this->Waiting)
+  {
+    if (this->IsPressing)
+    {
+      this->IsPressing = false;
+      this->Want(this->Hover, this->Hover);
+    }
+    return;
+  }
+  const double depth = this->PressingDepth();
+  const double* place = this->Hover;
+  if (depth > 0.0 && this->IsPressing && !mustPlace)
+  {
+    double step[3];
+    vtkMath::Subtract(this->Hit, before[0], step);
+    const double aside =
+      std::max(std::abs(vtkMath::Dot(this->Normal, step)), std::abs(vtkMath::Dot(before[1], step)));
+    const bool isEdge = vtkMath::Dot(this->Normal, before[1]) < SharpestEdge ||
+      aside > SteepestStep * vtkMath::Norm(step) + 0.1 * depth * this->Scale();
+    place = isEdge ? this->Hover : nullptr;
+  }
+  this->IsPressing = depth > 0.0;
+  this->AstraySince = 0.0;
+  if (place)
+  {
+    this->Extra = 0.0;
+  }
+  if (this->IsPressing)
+  {
+    this->Press(place != nullptr);
+  }
+  else
+  {
+    this->Want(this->Hover, place);
+  }
+}
+
+/// Draws the hand into the surface where the cursor is, or puts it down there.
+void vtkMouseHapticDevice::Press(bool isPlaced)
+{
+  const double depth = this->PressingDepth() * this->Scale() + this->Extra;
+  double wanted[3];
+  double start[3];
+  for (int i = 0; i < 3; ++i)
+  {
+    wanted[i] = this->Hit[i] - depth * this->Normal[i];
+    start[i] = this->Hit[i] + StartHeight / HoverHeight * (this->Hover[i] - this->Hit[i]);
+  }
+  this->Want(wanted, isPlaced ? start : nullptr);
+}
+
+/// Moves the hand within the plane of the view at a depth.
+void vtkMouseHapticDevice::Carry(const View& view, double depth)
+{
+  double world[3];
+  view.At(depth, world);
+  this->Waiting = false;
+  this->IsPressing = false;
+  this->Want(world, nullptr);
+}
+
+/// Whether a surface lies between the viewer and a place.
+bool vtkMouseHapticDevice::IsHidden(const View& view, const double place[3])
+{
+  // From the near plane, along the ray of that place.
+  double from[3];
+  double direction[3];
+  view.RayOf(place, from, direction);
+  double hit[3];
+  return this->Scene->IntersectRay(from, direction, hit) &&
+    view.Depth(place) - view.Depth(hit) > HoverHeight * this->Scale();
+}
+
+/// In a hollow or at a rim the surface yields to the side, and the hand is less deep below the
+/// god-object than it was told: goes on until it is.
+void vtkMouseHapticDevice::Deepen(double depth)
+{
+  const double missing = depth - this->Scene->GetPenetration();
+  if (missing > Shallow * depth && this->Extra < depth)
+  {
+    this->Extra = std::min(depth, this->Extra + DeepeningShare * missing);
+    this->Press(false);
+  }
+}
+
+/// Puts a pressing hand down anew where the surface keeps it from the cursor: behind a rim that the
+/// hand has slid under, or in a pocket.
+void vtkMouseHapticDevice::WatchContact()
+{
+  if (!this->IsPressing || this->ButtonsHeld != 0 || !this->IsInUse() || !this->Scene ||
+    this->IsCarrying())
+  {
+    this->AstraySince = 0.0;
+    return;
+  }
+  View view;
+  if (!this->Look(view))
+  {
+    return;
+  }
+  double god[3];
+  this->Scene->GetGodObject(god);
+  double away[3];
+  vtkMath::Subtract(god, this->Hit, away);
+  const double depth = this->PressingDepth() * this->Scale();
+  const bool isAstray = !this->Scene->GetTouching() ||
+    vtkMath::Norm(away) > std::max(depth, StrayPixels * this->Pixel) ||
+    this->Scene->GetPenetration() > StrayDepth * depth;
+  if (!isAstray && this->IsHidden(view, god))
+  {
+    this->Follow(true);
+    return;
+  }
+  if (!isAstray)
+  {
+    this->Deepen(depth);
+  }
+  const double now = vtkTimerLog::GetUniversalTime();
+  if (!isAstray)
+  {
+    this->AstraySince = 0.0;
+  }
+  else if (this->AstraySince == 0.0)
+  {
+    this->AstraySince = now;
+  }
+  else if (now - this->AstraySince > StrayTime)
+  {
+    this->Follow(true);
+  }
 }
 
 void vtkMouseHapticDevice::SetTarget(double x, double y, double z)
@@ -359,7 +684,7 @@ void vtkMouseHapticDevice::SetTarget(double x, double y, double z)
   this->Target = { { x, y, z } };
   if (this->Mouse)
   {
-    this->Mouse->Want(this->Target);
+    this->Mouse->Move(this->Target);
   }
 }
 
@@ -372,17 +697,7 @@ void vtkMouseHapticDevice::MoveTo(int x, int y)
 {
   this->Cursor[0] = x;
   this->Cursor[1] = y;
-  View view;
-  if (this->Look(view))
-  {
-    double depth = this->DepthOfTarget(view);
-    double surface = 0.0;
-    if (this->Pressed && this->DepthOfSurface(view, surface))
-    {
-      depth = surface + this->PressDepth * this->Scale();
-    }
-    this->MoveWithin(view, depth);
-  }
+  this->Follow(false);
 }
 
 void vtkMouseHapticDevice::Turn(int notches)
@@ -392,23 +707,26 @@ void vtkMouseHapticDevice::Turn(int notches)
   {
     return;
   }
-  const double step = this->WheelStep * this->Scale();
-  double depth = this->DepthOfTarget(view);
-  double surface = 0.0;
-  const bool known = this->DepthOfSurface(view, surface);
-  for (int i = 0; i < std::abs(notches); ++i)
+  if (this->IsCarrying())
   {
-    const bool free = !this->Scene->GetTouching() && (!known || depth < surface);
-    if (notches > 0)
-    {
-      depth = free && known ? surface + step : depth + (free ? FreeSteps : 1.0) * step;
-    }
-    else
-    {
-      depth -= (free ? FreeSteps : 1.0) * step;
-    }
+    double hand[4] = { this->Target[0], this->Target[1], this->Target[2], 1.0 };
+    this->Scene->GetWorkspaceTransform()->MultiplyPoint(hand, hand);
+    this->Carry(view, view.Depth(hand) + notches * CarrySteps * this->WheelStep * this->Scale());
+    return;
   }
-  this->MoveWithin(view, depth);
+  const double change = notches * this->WheelStep;
+  const double stiffness = std::max(1.0, this->Scene->GetStiffness());
+  const double deepest = std::max(this->WheelStep, this->MaximumForce / stiffness);
+  if (this->Pressed)
+  {
+    this->SetPressDepth(std::clamp(this->PressDepth + change, this->WheelStep, deepest));
+    this->WheelDepth = 0.0;
+  }
+  else
+  {
+    this->WheelDepth = std::clamp(this->WheelDepth + change, 0.0, deepest);
+  }
+  this->Follow(false);
 }
 
 void vtkMouseHapticDevice::SetPressed(bool pressed)
@@ -418,12 +736,26 @@ void vtkMouseHapticDevice::SetPressed(bool pressed)
     return;
   }
   this->Pressed = pressed;
-  View view;
-  double depth = 0.0;
-  if (this->Look(view) && this->DepthOfSurface(view, depth))
+  if (!pressed)
   {
-    this->MoveWithin(view, depth + (pressed ? this->PressDepth : -HoverHeight) * this->Scale());
+    this->WheelDepth = 0.0;
   }
+  if (this->ButtonsHeld != 0 && !pressed && this->IsPressing && this->Scene && !this->IsCarrying())
+  {
+    // The cursor is the camera's; the hand lifts where it is.
+    this->IsPressing = false;
+    this->Want(this->Hover, this->Hover);
+    return;
+  }
+  if (this->ButtonsHeld == 0)
+  {
+    this->Follow(false);
+  }
+}
+
+const char* vtkMouseHapticDevice::GetStatusMessage() const
+{
+  return this->Waiting ? "The hand waits for the mouse over a surface." : "";
 }
 
 void vtkMouseHapticDevice::PrintSelf(ostream& os, vtkIndent indent)
@@ -434,6 +766,7 @@ void vtkMouseHapticDevice::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Target [m]: (" << this->Target[0] << ", " << this->Target[1] << ", "
      << this->Target[2] << ")\n";
   os << indent << "Pressed: " << (this->Pressed ? "yes" : "no") << "\n";
+  os << indent << "Waiting: " << (this->Waiting ? "yes" : "no") << "\n";
   os << indent << "WheelStep [m]: " << this->WheelStep << "\n";
   os << indent << "PressDepth [m]: " << this->PressDepth << "\n";
   os << indent << "Smoothing [s]: " << this->Smoothing << "\n";

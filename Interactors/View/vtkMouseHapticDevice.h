@@ -2,25 +2,35 @@
  * @class   vtkMouseHapticDevice
  * @brief   touch without hardware: the mouse is the hand
  *
- * The mouse moves the haptic interface point (HIP) in the plane of the view that it lies in, so
- * that it stays under the cursor. What moves it towards the surface and into it:
- * - the wheel: the first notch goes down to the surface under the cursor, every further one presses
- *   WheelStep deeper; turned back it lifts in the same steps. With Ctrl held it zooms as ever;
- * - the space bar, held: presses PressDepth into the surface under the cursor and follows the
- *   surface while the mouse moves: a stroke. Let go, the hand lifts off.
+ * The haptic interface point (HIP) hovers over the surface under the cursor. One gesture presses:
+ * - the space bar, held, presses PressDepth into the surface; moving the mouse strokes it at that
+ *   depth. Let go, there is no force at once. Shift with the left mouse button does the same, for
+ *   touchpads that rest while one types;
+ * - the wheel, meanwhile, sets how deep. Turned alone it presses WheelStep deeper with every notch,
+ *   and stays there; turned back, or after the space bar, the hand is in the air again. With Ctrl
+ *   it zooms as ever.
  *
- * While the hand carries something (vtkHapticScene::Grip()) it is drawn to no surface, and goes as
- * deep as the wheel says.
+ * "Deep" is along the surface's normal, so that the force is stiffness times depth on a flat
+ * surface, wherever one looks from.
+ *
+ * A hand in the air does not travel: it is put down at the place that the cursor shows, which lies
+ * in plain view, so that it never goes through anything, nor gets behind or inside of it. Where
+ * the cursor goes on behind an edge, the hand lifts and is put down there. It waits where it is
+ * - while a mouse button is held, as the mouse is the camera's then, and while the camera moves;
+ * - where no surface is under the cursor; what was pressed is let go, and pressed again when the
+ *   cursor comes back. GetWaiting() and GetStatusMessage() report it.
+ *
+ * While the hand carries something (vtkHapticScene::Grip()) it moves in the plane of the view that
+ * it lies in, is drawn to no surface, and goes as deep as the wheel says.
  *
  * A space bar that is held repeats itself: a release that a press follows at once is none. The
  * mouse asks its interactor for a timer for that.
  *
- * While a mouse button is held the mouse belongs to the camera, and the hand stays.
- *
  * What it is not: a mouse cannot push back. The force that a haptic device would give is computed
  * all the same, at 1 kHz, and shown: as the arrow of vtkGodObjectActor, and as a bar and a number
- * by vtkHapticOverlay. The servo draws the hand to the mouse's position smoothly, as an arm would
- * move, with the time constant Smoothing: 60 mouse events a second would be felt as steps.
+ * by vtkHapticOverlay. The servo draws the pressing hand to the mouse's position smoothly, as an
+ * arm would move, with the time constant Smoothing: 60 mouse events a second would be felt as
+ * steps.
  *
  * vtkInteractorStyleHaptic connects it where it is the device of its scene. Without one, call
  * SetInteractor() and SetScene().
@@ -70,12 +80,16 @@ public:
   ///@}
 
   ///@{
-  /** How deep a notch of the wheel presses, device frame [m]. Default 0.001; 1e-6 to 0.05. */
+  /** How much deeper a notch of the wheel presses, device frame [m]. Default 0.001; 1e-6 to 0.05.
+   */
   vtkSetClampMacro(WheelStep, double, 1e-6, 0.05);
   vtkGetMacro(WheelStep, double);
   ///@}
   ///@{
-  /** How deep the space bar presses, device frame [m]. Default 0.003; 1e-6 to 0.05. */
+  /**
+   * How deep the space bar presses, device frame [m]; the wheel changes it while it is held.
+   * Default 0.003; 1e-6 to 0.05.
+   */
   vtkSetClampMacro(PressDepth, double, 1e-6, 0.05);
   vtkGetMacro(PressDepth, double);
   ///@}
@@ -99,6 +113,10 @@ public:
   void SetPressed(bool pressed);
   vtkGetMacro(Pressed, bool);
   ///@}
+  /** Whether the hand waits: there is no surface under the cursor, or the camera is being moved. */
+  vtkGetMacro(Waiting, bool);
+  /** What the hand waits for, in plain words; empty where it does not. */
+  const char* GetStatusMessage() const override;
 
   ///@{
   /** Where the hand is drawn to, device frame [m]. Default the front of the workspace's middle. */
@@ -120,22 +138,45 @@ private:
   static void OnEvent(vtkObject* caller, unsigned long event, void* clientData, void* callData);
   bool IsInUse();
   bool Handle(unsigned long event, void* callData);
+  bool HandleTimer(void* callData);
+  bool HandleButton(unsigned long event);
+  static void OnButton(vtkObject* caller, unsigned long event, void* clientData, void* callData);
   void HandleSpace(bool down);
   void ForgetRelease();
+  bool IsCarrying();
   bool Look(View& view);
-  void MoveWithin(const View& view, double depth);
+  bool Find(const View& view);
+  void Follow(bool mustPlace);
+  void Carry(const View& view, double depth);
+  void Press(bool isPlaced);
+  void Deepen(double depth);
+  void WatchContact();
+  bool IsHidden(const View& view, const double place[3]);
+  double PressingDepth();
   double Scale();
-  double DepthOfTarget(const View& view);
-  bool DepthOfSurface(const View& view, double& depth);
+  void ToDevice(const double world[3], double device[3]);
+  void Want(const double world[3], const double* place);
 
   vtkWeakPointer<vtkRenderWindowInteractor> Interactor;
   vtkWeakPointer<vtkHapticScene> Scene;
   vtkNew<vtkCallbackCommand> Callback;
+  vtkNew<vtkCallbackCommand> ButtonCallback;
   std::shared_ptr<MouseChannel> Mouse;
   std::array<double, 3> Target{ { 0.0, 0.0, 0.05 } };
   int Cursor[2] = { 0, 0 };
   bool Pressed = false;
-  int ReleaseTimer = 0; ///< runs out where the space bar was really let go
+  bool Waiting = false;
+  bool IsPressing = false;              ///< the hand was told to be in the surface
+  bool ShiftPresses = false;            ///< the left button does, with Shift
+  unsigned int ButtonsHeld = 0;         ///< of the mouse, for the camera: a bit each
+  int ReleaseTimer = 0;                 ///< runs out where the space bar was really let go
+  double WheelDepth = 0.0;              ///< that the wheel alone has pressed [m], device frame
+  double Hover[3] = { 0.0, 0.0, 0.0 };  ///< over the surface where the cursor was last [world unit]
+  double Hit[3] = { 0.0, 0.0, 0.0 };    ///< that place of the surface
+  double Normal[3] = { 0.0, 0.0, 1.0 }; ///< there, towards the viewer
+  double Pixel = 0.0;                   ///< its width there [world unit]
+  double Extra = 0.0;       ///< deeper than told, for where the surface yields [world unit]
+  double AstraySince = 0.0; ///< [s] the hand has not been where the cursor is; 0: it is there
   double WheelStep = 0.001;
   double PressDepth = 0.003;
   double Smoothing = 0.012;

@@ -142,26 +142,23 @@ class Program:
         self.window = wait_for(found, seconds, f"the window of {self.command}").split()[-1]
         lines = self.desktop.xdo("getwindowgeometry", "--shell", self.window).splitlines()
         place = {key: int(value) for key, value in (line.split("=") for line in lines)}
-        self.corner = place["X"], place["Y"]
         self.size = place["WIDTH"], place["HEIGHT"]
+        self.cursor = 0.5, 0.5
 
     def move(self, x, y):
         """Moves the mouse to a place in the window, in its widths and heights from the upper left."""
-        self.desktop.xdo(
-            "mousemove",
-            int(self.corner[0] + x * self.size[0]), int(self.corner[1] + y * self.size[1]),
-        )
+        self.cursor = x, y
+        place = int(x * self.size[0]), int(y * self.size[1])
+        self.desktop.xdo("mousemove", "--window", self.window, "--", *place)
 
     def drag(self, x, y, seconds=0.5, steps=30):
         """Moves the mouse there from where it is, as a hand does."""
-        found = self.desktop.xdo("getmouselocation", "--shell").splitlines()
-        place = dict(line.split("=") for line in found)
-        begin = [int(place[k]) - self.corner[i] for i, k in enumerate("XY")]
-        begin = [value / self.size[i] for i, value in enumerate(begin)]
+        begin = self.cursor
+        started = time.monotonic()
         for step in range(1, steps + 1):
             share = step / steps
             self.move(begin[0] + share * (x - begin[0]), begin[1] + share * (y - begin[1]))
-            time.sleep(seconds / steps)
+            time.sleep(max(0.0, started + share * seconds - time.monotonic()))
 
     def focus(self):
         """Puts the mouse into the window, and the keyboard with it."""

@@ -48,18 +48,118 @@ struct MouseWindow : Window
 };
 }
 
-TEST(MouseHapticDevice, KeepsTheHandUnderTheCursorInThePlaneOfTheView)
+TEST(MouseHapticDevice, HoversOnTheSurfaceUnderTheCursorWithoutTouching)
 {
   MouseWindow window;
   EXPECT_EQ(window.Mouse->GetInteractor(), window.Interactor.Get());
-  window.Send(vtkCommand::MouseMoveEvent, 70, 35);
+  window.Table->RotateX(20.0);
+  window.Timer();
+  window.Hand.Scene->Step(100);
+  for (const int x : { 30, 60 })
+  {
+    window.Send(vtkCommand::MouseMoveEvent, x, 45);
+    window.Tick();
+    double display[2];
+    window.Project(window.Hand.Scene->GetHapticInterfacePoint(), display);
+    EXPECT_NEAR(display[0], x, 1e-6);
+    EXPECT_NEAR(display[1], 45.0, 1e-6);
+    EXPECT_FALSE(window.Hand.Scene->GetTouching());
+    window.Mouse->SetPressed(true);
+    window.Tick();
+    EXPECT_TRUE(window.Hand.Scene->GetTouching()) << "one tick later: it was just above";
+    window.Mouse->SetPressed(false);
+    window.Tick();
+    EXPECT_FALSE(window.Hand.Scene->GetTouching());
+  }
+}
+
+// The cursor goes over a step, from the lower table to one above it, and over its edge into the
+// emptiness: the hand is put down on the other side, and never between.
+TEST(MouseHapticDevice, IsPutDownBehindAnEdgeAndWaitsOverNothing)
+{
+  MouseWindow window;
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(MakeTable(0.0));
+  vtkNew<vtkActor> step;
+  step->SetMapper(mapper);
+  step->SetPosition(0.0, 0.0, 0.03);
+  step->SetScale(0.3, 0.3, 1.0);
+  window.Renderer->AddActor(step);
+  window.Hand.Scene->AddSurface(step);
+  window.Timer();
+  const double edge[3] = { 0.3 * window.Table->GetBounds()[1], 0.0, 0.03 };
+  double at[2];
+  window.Project(edge, at);
+  const int x = static_cast<int>(at[0]);
+  window.Send(vtkCommand::MouseMoveEvent, x + 6, 50);
+  window.Send(vtkCommand::KeyPressEvent, x + 6, 50, "space");
   window.Tick();
-  double display[2];
-  window.Project(window.Hand.Scene->GetHapticInterfacePoint(), display);
-  EXPECT_NEAR(display[0], 70.0, 1e-6);
-  EXPECT_NEAR(display[1], 35.0, 1e-6);
-  EXPECT_NEAR(window.Height(), 0.02, 1e-12) << "no nearer and no farther";
+  EXPECT_NEAR(window.Hand.Scene->GetGodObject()[2], 0.0, Clearance);
+  for (const int left : { 6, 7, 8 })
+  {
+    window.Send(vtkCommand::MouseMoveEvent, x - left, 50);
+    window.Tick();
+    EXPECT_NEAR(window.Hand.Scene->GetGodObject()[2], 0.03, Clearance);
+    EXPECT_NEAR(window.Hand.Scene->GetPenetration(), 0.003, Clearance) << "steady";
+  }
+  const double outside[3] = { 2.0 * window.Table->GetBounds()[1], 0.0, 0.0 };
+  window.Project(outside, at);
+  window.Table->VisibilityOff();
+  window.Timer();
+  window.Send(vtkCommand::MouseMoveEvent, 95, 50);
+  window.Tick();
+  EXPECT_TRUE(window.Mouse->GetWaiting());
+  EXPECT_STRNE(window.Mouse->GetStatusMessage(), "");
   EXPECT_FALSE(window.Hand.Scene->GetTouching());
+  EXPECT_NEAR(window.Height(), 0.031, 0.0005) << "over the place where it was";
+  window.Send(vtkCommand::MouseMoveEvent, x - 8, 50);
+  window.Tick();
+  EXPECT_FALSE(window.Mouse->GetWaiting());
+  EXPECT_TRUE(window.Hand.Scene->GetTouching()) << "the key is held all the while";
+}
+
+TEST(MouseHapticDevice, ShiftWithTheLeftButtonPressesAndLeavesTheCameraAlone)
+{
+  MouseWindow window;
+  vtkCamera* camera = window.Renderer->GetActiveCamera();
+  double before[3];
+  camera->GetPosition(before);
+  window.Send(vtkCommand::MouseMoveEvent, 50, 50);
+  window.Interactor->SetEventInformation(50, 50, 0, 1);
+  window.Interactor->InvokeEvent(vtkCommand::LeftButtonPressEvent);
+  for (const int x : { 52, 54 })
+  {
+    window.Interactor->SetEventInformation(x, 50, 0, 1);
+    window.Interactor->InvokeEvent(vtkCommand::MouseMoveEvent);
+    window.Hand.Scene->Step(100);
+    EXPECT_NEAR(window.Hand.Scene->GetForce()[2], 500.0 * 0.003, 1e-3);
+  }
+  window.Interactor->SetEventInformation(54, 50, 0, 0); // Shift was let go first
+  window.Interactor->InvokeEvent(vtkCommand::LeftButtonReleaseEvent);
+  window.Tick();
+  EXPECT_FALSE(window.Hand.Scene->GetTouching());
+  EXPECT_TRUE(std::equal(before, before + 3, camera->GetPosition()));
+}
+
+TEST(MouseHapticDevice, TheWheelSetsHowDeepWhileSpaceIsHeld)
+{
+  MouseWindow window;
+  window.Send(vtkCommand::MouseMoveEvent, 50, 50);
+  window.Send(vtkCommand::KeyPressEvent, 50, 50, "space");
+  window.Send(vtkCommand::MouseWheelForwardEvent, 50, 50);
+  window.Hand.Scene->Step(100);
+  EXPECT_NEAR(window.Hand.Scene->GetForce()[2], 500.0 * 0.004, 1e-3);
+  for (int i = 0; i < 50; ++i)
+  {
+    window.Send(vtkCommand::MouseWheelForwardEvent, 50, 50);
+  }
+  EXPECT_LE(500.0 * window.Mouse->GetPressDepth(), window.Mouse->GetMaximumForce());
+  for (int i = 0; i < 50; ++i)
+  {
+    window.Send(vtkCommand::MouseWheelBackwardEvent, 50, 50);
+  }
+  window.Hand.Scene->Step(100);
+  EXPECT_TRUE(window.Hand.Scene->GetTouching()) << "as long as it is held";
 }
 
 TEST(MouseHapticDevice, TheWheelLandsOnTheSurfaceThenPressesAStepANotch)
@@ -212,8 +312,10 @@ TEST(MouseHapticDevice, StaysWhileTheCameraIsDragged)
   window.Mouse->GetTarget(after);
   EXPECT_TRUE(std::equal(before, before + 3, after));
   EXPECT_GT(std::abs(window.Renderer->GetActiveCamera()->GetPosition()[0]), 1e-3);
+  EXPECT_TRUE(window.Mouse->GetWaiting());
   window.Send(vtkCommand::LeftButtonReleaseEvent, 80, 60);
-  window.Send(vtkCommand::MouseMoveEvent, 81, 60);
+  window.Send(vtkCommand::MouseMoveEvent, 55, 50);
+  EXPECT_FALSE(window.Mouse->GetWaiting());
   window.Mouse->GetTarget(after);
   EXPECT_NE(before[0], after[0]);
 }

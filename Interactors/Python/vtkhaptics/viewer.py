@@ -152,6 +152,7 @@ class Viewer:
         self.interactor.SetRenderWindow(self.window)
         self.interactor.SetInteractorStyle(vtkInteractorStyleTrackballCamera())
         self.interactor.Initialize()
+        self.renderer.ResetCameraClippingRange()
         self.window.Render()
 
     def build(self):
