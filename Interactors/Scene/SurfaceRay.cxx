@@ -86,14 +86,16 @@ std::optional<RayHit> CastRay(
     return std::nullopt;
   }
   const auto count = static_cast<std::int32_t>(surface.Triangles().size());
-  std::vector<std::int32_t> candidates(static_cast<std::size_t>(count));
+  // A ray that meets more triangles than that looks at all of them.
+  std::vector<std::int32_t> candidates(static_cast<std::size_t>(std::min(count, 4096)));
   TriangleList found;
   found.Indices = candidates.data();
-  found.Capacity = count;
+  found.Capacity = static_cast<std::int32_t>(candidates.size());
   surface.Engine().FindOnSegment(
     Along(local, direction, begin), Along(local, direction, end), found);
   if (found.Overflow)
   {
+    candidates.resize(static_cast<std::size_t>(count));
     std::iota(candidates.begin(), candidates.end(), 0);
     found.Count = count;
   }

@@ -85,7 +85,8 @@ bool ServoCycle::Tick(double time) noexcept
   }
   if (this->IsFirst || this->Placements != settings.Placements)
   {
-    god.Object->Place(hip);
+    const bool isPutDown = this->IsFirst && sample.Placements > 0 && IsFinite(sample.Place);
+    god.Object->Place(isPutDown ? settings.DeviceToWorld.PointToWorld(sample.Place) : hip);
     this->Guard.StartSoftly(settings.Safety);
   }
   else if (this->DevicePlacements != sample.Placements && IsFinite(sample.Place))

@@ -29,9 +29,9 @@ namespace
 constexpr double LeastRest = 0.004; // [s] between two pictures, for the events
 constexpr double RestShare = 0.15;  // of the time that the last picture took
 
-constexpr const char* MouseHelp = "move         hand, in the plane of the view\n"
-                                  "wheel        hand to the surface, then into it\n"
-                                  "space held   stroke the surface\n"
+constexpr const char* MouseHelp = "move         hand, over the surface under the cursor\n"
+                                  "space held   press; move to stroke (or Shift + left button)\n"
+                                  "wheel        how deep; alone: press, and stay\n"
                                   "Ctrl+wheel   zoom\n"
                                   "\n";
 constexpr const char* KeysHelp = "drag         turn the camera (Shift: pan, Ctrl: roll)\n"

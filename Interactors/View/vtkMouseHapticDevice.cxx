@@ -15,6 +15,7 @@
 #include "vtkRenderWindowInteractor.h"
 #include "vtkRenderer.h"
 #include "vtkTimerLog.h"
+#include "vtkTransform.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +35,10 @@ constexpr double SteepestStep = 0.5;   // sine between step and surface; beyond,
 constexpr double SharpestEdge = 0.9;   // cosine between normals; a hand does not slide over sharper
 constexpr double Shallow = 0.02;       // of the depth may be missing
 constexpr double DeepeningShare = 0.3; // of what is missing, at each look
+constexpr int MostPlacesBetween = 12;  // that are looked at between two places of the cursor
+constexpr double DeepestFold = 0.5;    // in pressing depths; a hand does not slide over deeper
 constexpr double StrayPixels = 12.0;   // more from the cursor than that is astray
+constexpr double TooDeep = 1.5;        // in depths that were told: put down anew at once
 constexpr double StrayDepth = 1.2;     // as is a hand that is deeper than it was told
 constexpr double StrayTime = 0.05;     // [s] after which a hand that is astray is put down anew
 
@@ -127,6 +131,14 @@ private:
   double LastTime = 0.0;
 };
 
+/// Where on a surface the cursor was.
+struct vtkMouseHapticDevice::Place
+{
+  double Hit[3];
+  double Normal[3];
+  int Cursor[2];
+};
+
 /// The ray under the cursor, world frame.
 struct vtkMouseHapticDevice::View
 {
@@ -134,6 +146,7 @@ struct vtkMouseHapticDevice::View
   double Forward[3];   ///< unit
   double From[3];      ///< a point of the ray
   double Direction[3]; ///< one unit of depth long
+  vtkMTimeType Time;   ///< of the camera
   double Near;         ///< depth at which rays begin
   bool IsParallel;
   double Pixel[2]; ///< the width of a pixel [world unit]: at depth d, Pixel[0] + d Pixel[1]
@@ -421,6 +434,7 @@ bool vtkMouseHapticDevice::Look(View& view)
     return false;
   }
   vtkCamera* camera = renderer->GetActiveCamera();
+  view.Time = camera->GetViewTransformObject()->GetMTime();
   camera->GetPosition(view.Eye);
   camera->GetDirectionOfProjection(view.Forward);
   double ends[2][4];
@@ -485,6 +499,7 @@ bool vtkMouseHapticDevice::Find(const View& view)
   view.At(depth - HoverHeight * this->Scale(), this->Hover);
   std::copy(hit, hit + 3, this->Hit);
   std::copy(normal, normal + 3, this->Normal);
+  std::copy(this->Cursor, this->Cursor + 2, this->FoundAt);
   this->Pixel = view.Pixel[0] + depth * view.Pixel[1];
   return true;
 }
@@ -519,6 +534,46 @@ void vtkMouseHapticDevice::Want(const double world[3], const double* place)
   this->SetTarget(target[0], target[1], target[2]);
 }
 
+/// Whether the surface between the last place of the cursor and this one is one that a hand can
+/// slide along: without edges and folds.
+bool vtkMouseHapticDevice::IsSmooth(const View& view, const Place& before)
+{
+  double step[3];
+  vtkMath::Subtract(this->Hit, before.Hit, step);
+  const double depth = this->PressingDepth() * this->Scale();
+  const double aside = std::max(
+    std::abs(vtkMath::Dot(this->Normal, step)), std::abs(vtkMath::Dot(before.Normal, step)));
+  if (vtkMath::Dot(this->Normal, before.Normal) < SharpestEdge ||
+    aside > SteepestStep * vtkMath::Norm(step) + 0.1 * depth)
+  {
+    return false;
+  }
+  const int width = std::max(
+    std::abs(this->Cursor[0] - before.Cursor[0]), std::abs(this->Cursor[1] - before.Cursor[1]));
+  const int places = std::min(width - 1, MostPlacesBetween);
+  const double ends[2] = { view.Depth(before.Hit), view.Depth(this->Hit) };
+  for (int i = 1; i <= places; ++i)
+  {
+    // The rays between: the two at the ends, mixed as their points are.
+    const double share = static_cast<double>(i) / (places + 1);
+    double between[3];
+    for (int j = 0; j < 3; ++j)
+    {
+      between[j] = before.Hit[j] + share * step[j];
+    }
+    double from[3];
+    double direction[3];
+    view.RayOf(between, from, direction);
+    double hit[3];
+    if (!this->Scene->IntersectRay(from, direction, hit) ||
+      std::abs(view.Depth(hit) - (ends[0] + share * (ends[1] - ends[0]))) > DeepestFold * depth)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
 /// Brings the hand to where the cursor is: over the surface, or into it. While it presses it goes
 /// there through the surface's inside, with the god-object on the surface, unless the way leads
 /// over an edge, or `mustPlace`; else it is put down there.
@@ -536,9 +591,13 @@ void vtkMouseHapticDevice::Follow(bool mustPlace)
     this->Carry(view, view.Depth(hand));
     return;
   }
-  double before[2][3];
-  std::copy(this->Hit, this->Hit + 3, before[0]);
-  std::copy(this->Normal, this->Normal + 3, before[1]);
+  const bool isSameView = view.Time == this->LookedAt;
+  Place before;
+  std::copy(this->Hit, this->Hit + 3, before.Hit);
+  std::copy(this->Normal, this->Normal + 3, before.Normal);
+  before.Cursor[0] = this->FoundAt[0];
+  before.Cursor[1] = this->FoundAt[1];
+  this->LookedAt = view.Time;
   this->Waiting = !this->Find(view);
   if (this->Waiting)
   {
@@ -550,17 +609,9 @@ void vtkMouseHapticDevice::Follow(bool mustPlace)
     return;
   }
   const double depth = this->PressingDepth();
-  const double* place = this->Hover;
-  if (depth > 0.0 && this->IsPressing && !mustPlace)
-  {
-    double step[3];
-    vtkMath::Subtract(this->Hit, before[0], step);
-    const double aside =
-      std::max(std::abs(vtkMath::Dot(this->Normal, step)), std::abs(vtkMath::Dot(before[1], step)));
-    const bool isEdge = vtkMath::Dot(this->Normal, before[1]) < SharpestEdge ||
-      aside > SteepestStep * vtkMath::Norm(step) + 0.1 * depth * this->Scale();
-    place = isEdge ? this->Hover : nullptr;
-  }
+  const bool slides =
+    depth > 0.0 && this->IsPressing && isSameView && !mustPlace && this->IsSmooth(view, before);
+  const double* place = slides ? nullptr : this->Hover;
   this->IsPressing = depth > 0.0;
   this->AstraySince = 0.0;
   if (place)
@@ -648,7 +699,8 @@ void vtkMouseHapticDevice::WatchContact()
   const bool isAstray = !this->Scene->GetTouching() ||
     vtkMath::Norm(away) > std::max(depth, StrayPixels * this->Pixel) ||
     this->Scene->GetPenetration() > StrayDepth * depth;
-  if (!isAstray && this->IsHidden(view, god))
+  const bool isDeep = this->Scene->GetPenetration() > TooDeep * depth;
+  if (isDeep || (!isAstray && this->IsHidden(view, god)))
   {
     this->Follow(true);
     return;

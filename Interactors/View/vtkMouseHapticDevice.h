@@ -134,6 +134,7 @@ private:
 
   class MouseChannel;
   struct View;
+  struct Place;
 
   static void OnEvent(vtkObject* caller, unsigned long event, void* clientData, void* callData);
   bool IsInUse();
@@ -148,6 +149,7 @@ private:
   bool Find(const View& view);
   void Follow(bool mustPlace);
   void Carry(const View& view, double depth);
+  bool IsSmooth(const View& view, const Place& before);
   void Press(bool isPlaced);
   void Deepen(double depth);
   void WatchContact();
@@ -174,6 +176,8 @@ private:
   double Hover[3] = { 0.0, 0.0, 0.0 };  ///< over the surface where the cursor was last [world unit]
   double Hit[3] = { 0.0, 0.0, 0.0 };    ///< that place of the surface
   double Normal[3] = { 0.0, 0.0, 1.0 }; ///< there, towards the viewer
+  int FoundAt[2] = { 0, 0 };            ///< the cursor then
+  vtkMTimeType LookedAt = 0;            ///< the camera's time then
   double Pixel = 0.0;                   ///< its width there [world unit]
   double Extra = 0.0;       ///< deeper than told, for where the surface yields [world unit]
   double AstraySince = 0.0; ///< [s] the hand has not been where the cursor is; 0: it is there

@@ -1,6 +1,6 @@
 """Opens a window with a torus, to touch with the mouse.
 
-The wheel presses, the space bar held strokes, x grips the torus and carries it, ? lists the keys
+The space bar held presses, the wheel sets how deep, x grips the torus and carries it, ? lists the keys
 and q quits.
 
 usage: mouse_viewer.py [SECONDS]     with SECONDS it strokes by itself for so long, and quits

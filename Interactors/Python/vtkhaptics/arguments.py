@@ -8,7 +8,7 @@ SIDES = ("auto", "front", "both")
 
 EPILOG = """examples:
   python3 -m vtkhaptics gearbox.stl
-      touch it with the mouse: the wheel presses, space strokes, ? lists the keys
+      touch it with the mouse: hold space to press, move to stroke, ? lists the keys
   python3 -m vtkhaptics pial.vtp --scalars sulc --device simulated
       a simulated hand strokes it; values are coloured
   python3 -m vtkhaptics skull.vtp vessel.stl --stiffness 800 --side both

@@ -19,7 +19,7 @@ def touch(*surfaces, device=None, stiffness=500.0, scalars=None, size=(1200, 800
         What :func:`vtkhaptics.polydata` takes, each: a file, a vtkPolyData, a PyVista mesh, an
         object with vertices and faces, ``(vertices, faces)``.
     device : vtkHapticDevice, optional
-        Default: the mouse. The wheel presses, the space bar held strokes, ? lists the keys.
+        Default: the mouse. The space bar held presses, the wheel sets how deep, ? lists the keys.
     stiffness : float
         Of the surfaces in the hand [N/m].
     scalars : str, optional
