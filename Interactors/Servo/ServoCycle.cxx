@@ -89,7 +89,8 @@ bool ServoCycle::Tick(double time) noexcept
     god.Object->Place(isPutDown ? settings.DeviceToWorld.PointToWorld(sample.Place) : hip);
     this->Guard.StartSoftly(settings.Safety);
   }
-  else if (this->DevicePlacements != sample.Placements && IsFinite(sample.Place))
+  else if (!settings.IsClutched && this->DevicePlacements != sample.Placements &&
+    IsFinite(sample.Place))
   {
     god.Object->Place(settings.DeviceToWorld.PointToWorld(sample.Place));
   }
@@ -103,7 +104,7 @@ bool ServoCycle::Tick(double time) noexcept
     this->Guard.NoticeJump();
   }
   this->Placements = settings.Placements;
-  this->DevicePlacements = sample.Placements;
+  this->DevicePlacements = settings.IsClutched ? this->DevicePlacements : sample.Placements;
   this->WasClutched = settings.IsClutched;
   this->DeviceToWorld = settings.DeviceToWorld;
   this->IsFirst = false;
