@@ -252,7 +252,7 @@ TEST(PlainView, ANeedleEndsAtItsTip)
 }
 
 // Triangles whose third corner was computed on the edge of the other two: as thin as rounding. A
-// hand whose way goes through one, told by exact arithmetic, is held by it and slides along it.
+// hand whose way goes through one, told by exact arithmetic, is held by it.
 TEST(PlainView, ATriangleAsThinAsRoundingHoldsWhatGoesThroughIt)
 {
   std::mt19937 random(1);
@@ -292,16 +292,13 @@ TEST(PlainView, ATriangleAsThinAsRoundingHoldsWhatGoesThroughIt)
     ++aimed;
     GodObject god({ surface });
     god.Place(at + half);
-    for (int tick = 0; tick < 3; ++tick)
+    EXPECT_EQ(god.Update(at - half).Status, UpdateStatus::Touching) << "run " << run;
+    EXPECT_GT(god.Current().NumberOfConstraints, 0);
+    int corners = 0;
+    const Vec3* const way = god.Way(corners);
+    for (int i = 0; i + 1 < corners; ++i)
     {
-      EXPECT_EQ(god.Update(at - half).Status, UpdateStatus::Touching) << "run " << run;
-      EXPECT_GT(god.Current().NumberOfConstraints, 0);
-      int corners = 0;
-      const Vec3* const way = god.Way(corners);
-      for (int i = 0; i + 1 < corners; ++i)
-      {
-        EXPECT_FALSE(exact.Crosses(way[i], way[i + 1])) << "run " << run << ", piece " << i;
-      }
+      EXPECT_FALSE(exact.Crosses(way[i], way[i + 1])) << "run " << run << ", piece " << i;
     }
   }
   EXPECT_GT(aimed, 200);

@@ -96,7 +96,13 @@ public:
   /// Whether the god-object, where it stands, is known to be over the facet of each plane that
   /// supports: so that nobody looks twice. Who moves it takes that back; so does any other plane.
   bool IsKnownOver() const { return this->IsOverAll; }
-  void SetKnownOver(bool isOver) { this->IsOverAll = isOver; }
+  /// Not near an edge of any of them.
+  bool IsKnownInside() const { return this->IsOverAll && this->IsInsideAll; }
+  void SetKnownOver(bool isOver, bool isInside = false)
+  {
+    this->IsOverAll = isOver;
+    this->IsInsideAll = isInside;
+  }
   ///@}
   bool IsEmpty() const { return this->Count == 0; }
   bool Has(const FacetId& facet) const;
@@ -148,6 +154,7 @@ private:
   std::array<int, 3> Supports{};
   int NumberOfSupports = 0;
   bool IsOverAll = false;
+  bool IsInsideAll = false;
 };
 }
 

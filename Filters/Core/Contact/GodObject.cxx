@@ -11,6 +11,9 @@ namespace
 {
 /// A refused motion is tried at 1, 1/2, ... 1/32 of its length.
 constexpr int LargestNumberOfHalvings = 6;
+/// A god-object is at its HIP when it is so many clearances from it: as near as what it touches
+/// lets it come.
+constexpr double NearEnough = 8.0;
 }
 
 GodObject::Implementation::Implementation(std::vector<TouchedSurface> surfaces)
@@ -92,12 +95,16 @@ void GodObject::Implementation::Update(const Vector& hip)
   {
     return;
   }
+  const auto before = this->Active.SupportFacets();
   if (this->HasProperties)
   {
     this->WalkWithFriction(hip);
-    return;
   }
-  this->Walk(hip);
+  else if (this->Walk(hip) && this->Active.SupportSize() == 1 && this->Active.IsKnownInside())
+  {
+    return; // it is held by the facet that is right below, with the HIP straight behind it
+  }
+  this->LookAhead(hip, before);
 }
 
 /// Moves to the nearest point to the goal that the surfaces let it reach. True if it came there.
@@ -243,28 +250,91 @@ bool GodObject::Implementation::MoveTowards(const Vector& target)
 /// beyond its facet's edges has to be let go of: Fig. 5b.
 bool GodObject::Implementation::IsSupported()
 {
-  for (int i = 0; i < this->Active.SupportSize() && !this->Active.IsKnownOver(); ++i)
+  if (this->Active.IsKnownOver())
   {
-    if (!this->IsOver(this->Active.Support(i)))
+    return true;
+  }
+  bool areInside = true;
+  for (int i = 0; i < this->Active.SupportSize(); ++i)
+  {
+    bool isInside = false;
+    if (!this->IsOver(this->Active.Support(i), isInside))
     {
       return false;
     }
+    areInside = areInside && isInside;
   }
-  this->Active.SetKnownOver(true);
+  this->Active.SetKnownOver(true, areInside);
   return true;
 }
 
 /// Keeps of the planes that held the god-object those that do so with their own facets.
 void GodObject::Implementation::KeepSupports(bool keepsFar)
 {
-  this->Active.KeepSupports([&](const ActivePlane& plane)
-    { return (keepsFar || !plane.IsFar) && (this->Active.IsKnownOver() || this->IsOver(plane)); });
-  this->Active.SetKnownOver(true);
+  const bool isKnown = this->Active.IsKnownOver();
+  bool areInside = !isKnown || this->Active.IsKnownInside();
+  this->Active.KeepSupports(
+    [&](const ActivePlane& plane)
+    {
+      if (plane.IsFar && !keepsFar)
+      {
+        return false;
+      }
+      bool isInside = true;
+      const bool isKept = isKnown || this->IsOver(plane, isInside);
+      areInside = areInside && isInside;
+      return isKept;
+    });
+  this->Active.SetKnownOver(true, areInside);
 }
 
-bool GodObject::Implementation::IsOver(const ActivePlane& plane) const
+bool GodObject::Implementation::IsOver(const ActivePlane& plane, bool& isInside) const
 {
-  return this->Sets[plane.Facet.Surface].Covers(plane, this->Position, this->Active);
+  return this->Sets[plane.Facet.Surface].Covers(plane, this->Position, this->Active, isInside);
+}
+
+/// What is in plain view is reached: goes to the HIP where no facet is in the straight way there
+/// and that does not squeeze through a gap to be closed. So neither what facets reach over gaps nor
+/// planes that hold together, though each alone would let go, hold where nothing is.
+/// `before`: the facets that held it before this update. A line is met by what goes through it to
+/// within rounding, and let go of in the next update.
+void GodObject::Implementation::LookAhead(const Vector& hip, const std::array<FacetId, 3>& before)
+{
+  const int size = this->Active.SupportSize();
+  if (this->Position == hip || this->IsOverloaded)
+  {
+    return;
+  }
+  double near = 0.0;
+  for (int i = 0; i < size; ++i)
+  {
+    near = std::max(near, NearEnough * this->Active.Support(i).Clearance);
+  }
+  if (SquaredLength(hip - this->Position) <= near * near)
+  {
+    return;
+  }
+  for (int i = 0; i < size; ++i)
+  {
+    const ActivePlane& plane = this->Active.Support(i);
+    const bool isNew = std::find(before.begin(), before.end(), plane.Facet) == before.end();
+    if (this->Sets[plane.Facet.Surface].StandsInWay(plane, hip, isNew))
+    {
+      return;
+    }
+  }
+  NarrowGap gap(this->Position, hip);
+  for (std::size_t i = this->First; i < this->Last; ++i)
+  {
+    if (!this->Sets[i].IsOpen(hip, this->Budget, gap))
+    {
+      return;
+    }
+  }
+  if (!gap.IsFound() && this->MoveTowards(hip))
+  {
+    this->Active.Clear();
+  }
 }
 
 /// Tells the planes that hold the god-object, the one that pushes most first.

@@ -21,8 +21,8 @@ constexpr int LargestNumberOfCasts = 12;
 /// and a few milliseconds at the most.
 constexpr std::int64_t LargestNumberOfTriangles = 1 << 17;
 
-/// Each cast makes at most one motion.
-constexpr int LargestWay = LargestNumberOfPasses * LargestNumberOfCasts + 1;
+/// Each cast makes at most one motion, and one more goes to what is in plain view.
+constexpr int LargestWay = LargestNumberOfPasses * LargestNumberOfCasts + 2;
 
 /// What a god-object does: GodObject.cxx moves it to the HIP, GodObjectMotion.cxx with surfaces
 /// that move, GodObjectMaterial.cxx tells what they feel like and lets friction hold it.
@@ -79,7 +79,8 @@ private:
   bool MoveTowards(const Vector& target);
   bool IsSupported();
   void KeepSupports(bool keepsFar);
-  bool IsOver(const ActivePlane& plane) const;
+  bool IsOver(const ActivePlane& plane, bool& isInside) const;
+  void LookAhead(const Vector& hip, const std::array<FacetId, 3>& before);
 
   SurfaceFrame FrameOf(std::int32_t surface, const RigidPose& pose) const;
   void TakePose(Mover& mover);

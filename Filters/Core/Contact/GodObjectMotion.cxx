@@ -219,7 +219,11 @@ bool GodObject::Implementation::Step(double part)
 {
   ActivePlanes planes = this->Active;
   planes.KeepSupports(
-    [this](const ActivePlane& plane) { return !plane.IsFar && this->IsOver(plane); });
+    [this](const ActivePlane& plane)
+    {
+      bool isInside = false;
+      return !plane.IsFar && this->IsOver(plane, isInside);
+    });
   const ActivePlanes before = this->Active;
   for (Mover& mover : this->Movers)
   {

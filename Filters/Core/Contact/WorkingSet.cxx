@@ -191,7 +191,7 @@ bool WorkingSet::Covers(const FacetId& facet, const Vector& normal, double clear
   Vector nearest;
   const Coverage coverage =
     this->CoverageAt(facet.Triangle, normal, clearance, wayError, x, nearest);
-  return coverage == Coverage::Own ||
+  return coverage >= Coverage::Own ||
     (coverage == Coverage::Reach &&
       !planes.PassesOver(this->ToSurface.PointToScene(nearest), facet));
 }
@@ -476,6 +476,12 @@ bool WorkingSet::IsClear(const Vector& target)
   {
     return false; // short of the hit, but rounded to beyond it, where other triangles are
   }
+  return !this->MeetsAny(to);
+}
+
+/// Whether the way to `to` meets a gathered triangle.
+bool WorkingSet::MeetsAny(const Vector& to)
+{
   if (!this->IsPositionMeasured)
   {
     this->MeasurePosition();
@@ -491,10 +497,10 @@ bool WorkingSet::IsClear(const Vector& target)
     if (mayBeBefore && mayEndBehind && this->MeetsBox(i, to, 0.0) &&
       this->Touches(i, this->Position, to))
     {
-      return false;
+      return true;
     }
   }
-  return true;
+  return false;
 }
 
 bool WorkingSet::Touches(std::int32_t i, const Vector& from, const Vector& to) const
@@ -551,13 +557,67 @@ Coverage WorkingSet::CoverageAt(
   return coverage;
 }
 
-bool WorkingSet::Covers(
-  const ActivePlane& plane, const Vector& position, const ActivePlanes& planes) const
+bool WorkingSet::Covers(const ActivePlane& plane, const Vector& position,
+  const ActivePlanes& planes, bool& isInside) const
 {
   Vector nearest(0.0);
   const Coverage coverage = this->CoverageAt(plane, position, nearest);
-  return coverage == Coverage::Own ||
+  isInside = coverage == Coverage::Inside;
+  return coverage >= Coverage::Own ||
     (coverage == Coverage::Reach && !planes.PassesOver(nearest, plane.Facet));
+}
+
+bool WorkingSet::StandsInWay(const ActivePlane& plane, const Vector& goal, bool isNew) const
+{
+  const Vector normal = this->ToSurface.VectorToLocal(plane.Normal);
+  const auto [a, b, c] = this->CornersOf(plane.Facet.Triangle);
+  const Vector to = this->ToSurface.PointToLocal(goal);
+  const double here = glm::dot(normal, this->Position - a);
+  const double there = glm::dot(normal, to - a);
+  if (!(here > 0.0) || !(there < -plane.Clearance))
+  {
+    return false;
+  }
+  const Vector x = this->Position + (here / (here - there)) * (to - this->Position);
+  Vector nearest;
+  const Coverage coverage =
+    this->CoverageAt(plane.Facet.Triangle, plane.IsFlipped ? -normal : normal, plane.Clearance,
+      16.0 * UnitRoundoff * glm::length(to - this->Position), x, nearest);
+  return coverage == Coverage::Inside ||
+    (isNew && coverage == Coverage::Own && Facet(a, b, c).SmallestHeight < plane.Clearance);
+}
+
+bool WorkingSet::IsOpen(const Vector& goal, WorkBudget& budget, NarrowGap& gap)
+{
+  const Vector to = this->ToSurface.PointToLocal(goal);
+  if (this->IsSweeping() || this->IsFarOut())
+  {
+    return false;
+  }
+  if (this->PassesThroughNothing(to))
+  {
+    return true;
+  }
+  if (this->Covered == Region::Ball && this->MeetsAny(to))
+  {
+    return false;
+  }
+  if ((this->Covered != Region::Ball || !this->IsInBall(to)) &&
+    (!this->GatherSegment(to, budget) || this->MeetsAny(to)))
+  {
+    return false;
+  }
+  for (std::int32_t i = 0; i < this->Count; ++i)
+  {
+    const double reach = GrowthOverGaps * this->Clearance[i];
+    if (this->MeetsBox(i, to, 2.0 * reach))
+    {
+      const auto [a, b, c] = this->CornersOf(this->Triangles[i]);
+      gap.Add(this->ToSurface.PointToScene(a), this->ToSurface.PointToScene(b),
+        this->ToSurface.PointToScene(c), reach);
+    }
+  }
+  return true;
 }
 
 bool WorkingSet::IsPassedOver(

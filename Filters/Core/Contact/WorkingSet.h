@@ -2,6 +2,7 @@
 #define Haptics_WorkingSet_h
 
 #include "haptics/Contact/ActivePlanes.h"
+#include "haptics/Contact/NarrowGap.h"
 #include "haptics/Surface/Facet.h"
 #include "haptics/Surface/SurfaceFrame.h"
 #include "haptics/Surface/SurfaceSide.h"
@@ -117,11 +118,21 @@ public:
 
   /// Whether the god-object stands over the facet itself, not only over its plane: `planes` are
   /// those that hold it.
-  bool Covers(const ActivePlane& plane, const Vector& position, const ActivePlanes& planes) const;
+  /// `isInside` is set to whether it is not near an edge of the facet.
+  bool Covers(const ActivePlane& plane, const Vector& position, const ActivePlanes& planes,
+    bool& isInside) const;
   /// Whether the god-object stands beyond the facet, which reaches there over a gap, and what comes
   /// along `other` passes over the facet.
   bool IsPassedOver(
     const ActivePlane& plane, const Vector& position, const ActivePlane& other) const;
+
+  /// Whether the facet of a plane is, for certain, in the straight way to `goal`; of one as thin as
+  /// a line, if it `isNew`, to within rounding.
+  bool StandsInWay(const ActivePlane& plane, const Vector& goal, bool isNew) const;
+  /// Whether the straight way to `goal` meets no facet from a side that can be touched: exact, but
+  /// false where the budget ends first or the way is not known well enough. Adds to `gap` what is
+  /// near the way. Afterwards IsClear() can be asked about `goal`.
+  bool IsOpen(const Vector& goal, WorkBudget& budget, NarrowGap& gap);
 
   /// How much each corner of a triangle counts where the god-object stands over it: >= 0, sum 1.
   std::array<double, 3> CornerWeights(std::int32_t triangle) const;
@@ -149,6 +160,7 @@ private:
   void SetLimits();
   void GrowEmptyBall(double nearest);
   FacetHit Scan(const Vector& to, const ActivePlanes& active);
+  bool MeetsAny(const Vector& to);
   bool Touches(std::int32_t i, const Vector& from, const Vector& to) const;
   /// Whether the way to `to` comes into a triangle's box, grown by `reach`: as far as the way's own
   /// box tells.

@@ -139,6 +139,7 @@ void WorkingSet::Fill(
 {
   this->Count = 0;
   this->HasWires = false;
+  this->IsTargetMeasured = false;
   this->FoundCount = found.Count;
   double nearest = HUGE_VAL;
   // The corners lie anywhere in memory: all are called for before the first is waited for.

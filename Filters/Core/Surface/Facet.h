@@ -93,7 +93,8 @@ enum class Coverage
 {
   None,
   Reach, ///< beyond the facet, where it reaches over a gap
-  Own    ///< on the facet itself, or as good as that
+  Own,   ///< on the facet itself, or as good as that
+  Inside ///< on the facet, and not near any of its edges
 };
 
 /// The nearest point to x on the triangle's edges, be they as close to one line as they may.
@@ -160,7 +161,7 @@ inline Coverage CoverageOf(const Vector& normal, const Vector& a, const Vector& 
   }
   if (isInside)
   {
-    return Coverage::Own;
+    return Coverage::Inside;
   }
   // Near an edge: which of a thin triangle's is certain only of its distance.
   const Vector y = x - glm::dot(normal, x - a) * normal;

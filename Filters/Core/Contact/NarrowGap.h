@@ -1,0 +1,47 @@
+#ifndef Haptics_NarrowGap_h
+#define Haptics_NarrowGap_h
+
+#include "haptics/Math/VectorMath.h"
+
+#include <array>
+
+namespace haptics
+{
+/// @brief Whether a straight way squeezes through a gap that facets reach over.
+///
+/// A gap has two lips: facets on either side of the way that are nearer to each other than they
+/// reach, there and along one of their edges. Facets that part at an angle from a common corner are
+/// no lips, however near the corner the way passes: theirs is no gap to close.
+class NarrowGap
+{
+public:
+  NarrowGap(const Vector& from, const Vector& to)
+    : From(from)
+    , To(to)
+  {
+  }
+
+  /// A facet that may be near the way, and how far it reaches.
+  void Add(const Vector& a, const Vector& b, const Vector& c, double reach);
+  /// Whether there is a gap; also where there are too many facets to tell.
+  bool IsFound() const;
+
+private:
+  struct Lip
+  {
+    std::array<Vector, 3> Corners;
+    Vector Nearest{ 0 }; ///< of its points to the way
+    Vector Offset{ 0 };  ///< to there from the way
+    double Reach = 0.0;
+  };
+  static bool StaysNear(const Lip& lip, const Lip& other, double width, bool& isOnEdge);
+
+  static constexpr int Capacity = 32;
+  Vector From, To;
+  std::array<Lip, Capacity> Lips;
+  int Count = 0;
+  bool IsFull = false;
+};
+}
+
+#endif
