@@ -32,6 +32,12 @@ struct ActivePlane
   /// Met from so far away that its clearance is more than it has to be: to be met anew.
   bool IsFar = false;
 
+  /// So many clearances over the plane a point is in front of it for certain.
+  static constexpr double CertainHeight = 0.25;
+  bool IsCertainlyBelow(const Vector& point) const
+  {
+    return glm::dot(this->Normal, point - this->Anchor) > CertainHeight * this->Clearance;
+  }
   /// Whether what comes along the plane, at its clearance, passes over a point: it is behind the
   /// plane, or as good as that.
   bool PassesOver(const Vector& point) const

@@ -100,7 +100,8 @@ void GodObject::Implementation::Update(const Vector& hip)
   {
     this->WalkWithFriction(hip);
   }
-  else if (this->Walk(hip) && this->Active.SupportSize() == 1 && this->Active.IsKnownInside())
+  else if (this->Walk(hip) && this->Active.SupportSize() == 1 && this->Active.IsKnownInside() &&
+    this->Active.Support(0).IsCertainlyBelow(this->Position))
   {
     return; // it is held by the facet that is right below, with the HIP straight behind it
   }

@@ -574,7 +574,7 @@ bool WorkingSet::StandsInWay(const ActivePlane& plane, const Vector& goal, bool 
   const Vector to = this->ToSurface.PointToLocal(goal);
   const double here = glm::dot(normal, this->Position - a);
   const double there = glm::dot(normal, to - a);
-  if (!(here > 0.0) || !(there < -plane.Clearance))
+  if (!(here > ActivePlane::CertainHeight * plane.Clearance) || !(there < -plane.Clearance))
   {
     return false;
   }
