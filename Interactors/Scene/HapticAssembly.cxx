@@ -1,14 +1,13 @@
 #include "haptics/Scene/HapticAssembly.h"
 
 #include "haptics/Scene/SurfaceSet.h"
-#include "vtkActor.h"
 #include "vtkAssemblyNode.h"
 #include "vtkAssemblyPath.h"
-#include "vtkMapper.h"
 #include "vtkMatrix4x4.h"
-#include "vtkNew.h"
 
 #include <algorithm>
+#include <memory>
+#include <utility>
 
 namespace haptics
 {
@@ -30,9 +29,9 @@ HapticAssembly::Part& HapticAssembly::FindOrAdd(
   Part part;
   part.Way = way;
   part.Actor = actor;
-  part.Follower = vtkSmartPointer<vtkActor>::New();
-  part.Follower->SetUserMatrix(vtkNew<vtkMatrix4x4>());
-  part.Surface = surfaces.Add(part.Follower.Get());
+  auto source = std::make_unique<PartSource>();
+  part.Source = source.get();
+  part.Surface = surfaces.Add(std::move(source));
   this->Parts.push_back(part);
   return this->Parts.back();
 }
@@ -46,30 +45,27 @@ void HapticAssembly::Pull(SurfaceSet& surfaces)
   this->Assembly->InitPathTraversal(); // makes the paths anew where anything below has changed
   while (vtkAssemblyPath* path = this->Assembly->GetNextPath())
   {
-    vtkActor* actor = vtkActor::SafeDownCast(path->GetLastNode()->GetViewProp());
-    if (!actor)
-    {
-      continue; // a volume, say
-    }
     std::vector<vtkProp*> way;
     bool isShown = true;
+    vtkMatrix4x4* world = nullptr;
     vtkCollectionSimpleIterator iterator;
     path->InitTraversal(iterator);
     while (vtkAssemblyNode* node = path->GetNextNode(iterator))
     {
       way.push_back(node->GetViewProp());
       isShown = isShown && way.back()->GetVisibility() && way.back()->GetPickable();
+      world = node->GetMatrix();
+    }
+    vtkActor* actor = way.empty() ? nullptr : vtkActor::SafeDownCast(way.back());
+    if (!actor)
+    {
+      continue; // a volume, say
     }
     Part& part = this->FindOrAdd(way, actor, surfaces);
     part.IsThere = true;
-    part.Follower->SetMapper(actor->GetMapper());
-    part.Follower->SetVisibility(isShown);
-    vtkMatrix4x4* world = path->GetLastNode()->GetMatrix();
-    vtkMatrix4x4* followed = part.Follower->GetUserMatrix();
-    if (!std::equal(world->GetData(), world->GetData() + 16, followed->GetData()))
-    {
-      followed->DeepCopy(world);
-    }
+    part.Source->Mapper = actor->GetMapper();
+    part.Source->Shown = isShown;
+    std::copy_n(world->GetData(), 16, part.Source->World.begin());
   }
   const auto gone = std::partition(
     this->Parts.begin(), this->Parts.end(), [](const Part& part) { return part.IsThere; });

@@ -1,23 +1,24 @@
 #ifndef Haptics_HapticAssembly_h
 #define Haptics_HapticAssembly_h
 
+#include "vtkActor.h"
 #include "vtkAssembly.h"
 #include "vtkSmartPointer.h"
 
 #include <vector>
 
-class vtkActor;
 class vtkProp;
 
 namespace haptics
 {
+class PartSource;
 class SurfaceSet;
 
 /// @brief The actors in a vtkAssembly as surfaces of a scene, followed live. GUI thread.
 ///
 /// An actor in an assembly does not know where it is: its place depends on the way down to it. So
-/// each way from the top to an actor gets an actor of ours, with the same mapper and the matrix of
-/// the whole way, and that is the surface; one that hangs in two branches is two.
+/// each way from the top to an actor is a surface, with the matrix of the whole way; an actor that
+/// hangs in two branches is two.
 class HapticAssembly
 {
 public:
@@ -40,7 +41,7 @@ private:
   {
     std::vector<vtkProp*> Way; ///< from the assembly to the actor
     vtkSmartPointer<vtkActor> Actor;
-    vtkSmartPointer<vtkActor> Follower;
+    PartSource* Source = nullptr; ///< of the surface, which owns it
     int Surface = -1;
     bool IsThere = false;
   };

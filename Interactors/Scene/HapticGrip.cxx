@@ -2,6 +2,7 @@
 
 #include "haptics/Scene/SurfaceSet.h"
 #include "vtkActor.h"
+#include "vtkLinearTransform.h"
 #include "vtkMath.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
@@ -84,8 +85,7 @@ bool HapticGrip::Carry(const TickRecord& tick, vtkActor* actor, SurfaceSet& surf
     return false;
   }
   surface->Carry();
-  Matrix4 world;
-  surface->Actor()->GetMatrix(world.data());
+  const Matrix4 world = surface->Matrix();
   const Vec3 there = Transformed(world, this->Point);
   const Vec3& hand = tick.Position;
   const Vec3 by{ hand[0] - there[0], hand[1] - there[1], hand[2] - there[2] };
@@ -102,9 +102,9 @@ bool ShiftActor(vtkActor* actor, const Matrix4& world, const Vec3& by)
     return false;
   }
   vtkNew<vtkMatrix4x4> above; // what turns a shift of its position into one in the world
-  if (vtkMatrix4x4* const user = actor->GetUserMatrix())
+  if (vtkLinearTransform* const user = actor->GetUserTransform())
   {
-    above->DeepCopy(user);
+    above->DeepCopy(user->GetMatrix());
   }
   Matrix4 own;
   actor->GetMatrix(own.data());
@@ -127,7 +127,8 @@ bool ShiftActor(vtkActor* actor, const Matrix4& world, const Vec3& by)
       shift[i] += above->GetElement(i, j) * by[j];
     }
   }
-  actor->AddPosition(shift.data());
+  const double* position = actor->GetPosition();
+  actor->SetPosition(position[0] + shift[0], position[1] + shift[1], position[2] + shift[2]);
   return true;
 }
 }

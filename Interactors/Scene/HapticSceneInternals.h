@@ -35,7 +35,7 @@ public:
   bool Clutched = false;
   bool ClutchHeld = false;  ///< the device's button
   haptics::HapticGrip Grip;
-  vtkMTimeType LandmarksShown = 0;
+  vtkMTimeType LandmarksSeen = 0;
   std::vector<haptics::TickRecord> Drained; // kept for its memory
   std::optional<haptics::TickRecord> Latest;
   haptics::SceneCell LatestCell;

@@ -1,30 +1,20 @@
 #include "haptics/Scene/HapticSurface.h"
 
 #include "haptics/Filters/ErrorText.h"
-#include "vtkActor.h"
 #include "vtkAlgorithmOutput.h"
 #include "vtkBoundingBox.h"
 #include "vtkCommand.h"
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkGodObjectFilter.h"
-#include "vtkMapper.h"
 #include "vtkPolyData.h"
 
 #include <utility>
 
 namespace haptics
 {
-HapticSurface::HapticSurface(int id, vtkActor* actor)
+HapticSurface::HapticSurface(int id, std::unique_ptr<SurfaceSource> source)
   : Identifier(id)
-  , Source(actor)
-{
-  this->ListenToErrors();
-}
-
-HapticSurface::HapticSurface(int id, vtkAlgorithmOutput* geometry)
-  : Identifier(id)
-  , Producer(geometry->GetProducer())
-  , Geometry(geometry)
+  , Source(std::move(source))
 {
   this->ListenToErrors();
 }
@@ -51,17 +41,10 @@ void HapticSurface::KeepError(vtkObject*, unsigned long, void* clientData, void*
 
 bool HapticSurface::Connect(std::string& error)
 {
-  vtkAlgorithmOutput* geometry = this->Geometry;
-  if (this->Source)
+  vtkAlgorithmOutput* geometry = this->Source->Geometry(error);
+  if (!geometry)
   {
-    vtkMapper* mapper = this->Source->GetMapper();
-    geometry = mapper ? mapper->GetInputConnection(0, 0) : nullptr;
-    if (!geometry)
-    {
-      error = mapper ? "the actor's mapper has no input; give it some"
-                     : "the actor has no mapper; give it one";
-      return false;
-    }
+    return false;
   }
   if (this->Preparation->GetNumberOfInputConnections(0) == 0 ||
     this->Preparation->GetInputConnection(0, 0) != geometry)
@@ -80,16 +63,6 @@ HapticSurface::Version HapticSurface::Current()
   pipeline->UpdatePipelineMTime();
   version.Pipeline = pipeline->GetPipelineMTime();
   return version;
-}
-
-Matrix4 HapticSurface::CurrentMatrix()
-{
-  Matrix4 matrix = IdentityMatrix;
-  if (this->Source)
-  {
-    this->Source->GetMatrix(matrix.data());
-  }
-  return matrix;
 }
 
 bool HapticSurface::Pull(const PullSettings& settings, std::string& error)
@@ -116,7 +89,7 @@ void HapticSurface::Follow(const PullSettings& settings, std::string& error)
 {
   this->WasUnseen = !this->IsThere();
   this->IsElsewhere = false;
-  this->Shown = !this->Source || (this->Source->GetVisibility() && this->Source->GetPickable());
+  this->Shown = this->Source->IsShown();
   // One that goes on from a snapshot has to come after it.
   const bool isDone = this->Build && this->Build->IsDone();
   this->IsPostponed = isDone && this->Build->Deforms() && settings.IsLive && !settings.IsTaken;
@@ -140,7 +113,7 @@ void HapticSurface::Follow(const PullSettings& settings, std::string& error)
   }
   this->LastConnectError.clear();
 
-  const Matrix4 matrix = this->CurrentMatrix();
+  const Matrix4 matrix = this->Source->Matrix();
   const bool hasMoved = !AreSame(matrix, this->LastMatrix);
   this->LastMatrix = matrix;
   const bool isCarried = std::exchange(this->Carried, false);

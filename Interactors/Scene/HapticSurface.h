@@ -3,9 +3,9 @@
 
 #include "haptics/Material/SurfaceProperties.h"
 #include "haptics/Scene/SurfaceBuild.h"
+#include "haptics/Scene/SurfaceSource.h"
 #include "haptics/Surface/SurfaceMotion.h"
 #include "haptics/Surface/TriangleSurface.h"
-#include "vtkActor.h"
 #include "vtkCallbackCommand.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
@@ -18,7 +18,6 @@
 #include <string>
 #include <vector>
 
-class vtkAlgorithm;
 class vtkAlgorithmOutput;
 class vtkBoundingBox;
 class vtkGodObjectFilter;
@@ -73,10 +72,7 @@ public:
   using Properties = std::shared_ptr<const SurfaceProperties>;
   using CellIds = std::shared_ptr<const std::vector<vtkIdType>>;
 
-  /// A surface that follows its actor: geometry, matrix, visibility, pickability.
-  HapticSurface(int id, vtkActor* actor);
-  /// A surface in the world frame that follows a pipeline.
-  HapticSurface(int id, vtkAlgorithmOutput* geometry);
+  HapticSurface(int id, std::unique_ptr<SurfaceSource> source);
   /// Asks for the end of a build, and does not wait for it.
   ~HapticSurface();
   HapticSurface(const HapticSurface&) = delete;
@@ -90,7 +86,12 @@ public:
   }
   /// What people call it; empty where nobody has given it a name.
   std::string Name;
-  vtkActor* Actor() const { return this->Source; }
+  /// The actor that was given; null for geometry and for the part of an assembly.
+  vtkActor* Actor() const { return this->Source->Actor(); }
+  /// Whether it follows an actor or the part of an assembly.
+  bool Moves() const { return this->Source->Moves(); }
+  /// Where it is now, from the geometry's frame to the world.
+  Matrix4 Matrix() const { return this->Source->Matrix(); }
   vtkGodObjectFilter* Filter() const { return this->Preparation; }
 
   /// Takes in what has changed since the last call. True where another snapshot is in force now
@@ -161,7 +162,6 @@ private:
   void ListenToErrors();
   bool Connect(std::string& error);
   Version Current();
-  Matrix4 CurrentMatrix();
   void Follow(const PullSettings& settings, std::string& error);
   bool IsThere() const { return this->Shown && !this->IsEmpty; }
   vtkPolyData* UpdateGeometry(std::string& error);
@@ -181,9 +181,7 @@ private:
   static void KeepError(vtkObject* caller, unsigned long event, void* clientData, void* text);
 
   int Identifier;
-  vtkSmartPointer<vtkActor> Source;
-  vtkSmartPointer<vtkAlgorithm> Producer; // an output port does not keep its algorithm alive
-  vtkSmartPointer<vtkAlgorithmOutput> Geometry;
+  std::unique_ptr<SurfaceSource> Source;
   vtkNew<vtkGodObjectFilter> Preparation;
   vtkNew<vtkCallbackCommand> Listener;
   bool Shown = true;

@@ -2,7 +2,6 @@
 
 #include "haptics/Scene/HapticProbeFiller.h"
 #include "haptics/Scene/SurfaceRay.h"
-#include "vtkActor.h"
 
 #include <algorithm>
 

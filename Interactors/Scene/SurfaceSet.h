@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 class vtkHapticProbe;
@@ -31,11 +32,10 @@ struct SceneCell
 class SurfaceSet
 {
 public:
-  /// Adds one; `source` is what a HapticSurface takes. Returns its id.
-  template <class Source>
-  int Add(Source* source)
+  /// Adds one and returns its id.
+  int Add(std::unique_ptr<SurfaceSource> source)
   {
-    this->Surfaces.push_back(std::make_unique<HapticSurface>(this->NextId, source));
+    this->Surfaces.push_back(std::make_unique<HapticSurface>(this->NextId, std::move(source)));
     return this->NextId++;
   }
   /// An id that no surface has or will have.

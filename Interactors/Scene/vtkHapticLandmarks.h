@@ -12,7 +12,7 @@
 #ifndef Haptics_vtkHapticLandmarks_h
 #define Haptics_vtkHapticLandmarks_h
 
-#include "vtkHapticsInteractorsModule.h"
+#include "vtkHapticsSceneModule.h"
 #include "vtkNew.h"
 #include "vtkObject.h"
 #include "vtkSmartPointer.h"
@@ -23,7 +23,7 @@
 class vtkHapticProbe;
 class vtkPolyData;
 
-class VTKHAPTICSINTERACTORS_EXPORT vtkHapticLandmarks : public vtkObject
+class VTKHAPTICSSCENE_EXPORT vtkHapticLandmarks : public vtkObject
 {
 public:
   static vtkHapticLandmarks* New();
@@ -58,11 +58,11 @@ public:
    * Between two landmarks along the surface that both were dropped on [world unit], as the surface
    * was when the second one was dropped: a shortest way over its triangles, exact within those that
    * it crosses, and never shorter than the shortest of all. Against known lengths (a prism of thin
-   * triangles, a sphere) it was at most 0.4 % longer. Infinite where the surface's parts do not hang
-   * together; NaN and an error where they lie on two surfaces, or the surface was scaled or changed
-   * in between; one that was moved or turned is still the same. Takes about as long as building the
-   * surface did. `path`, where given, becomes the way as a polyline, where the surface was for the
-   * second landmark.
+   * triangles, a sphere) it was at most 0.4 % longer. Infinite where the surface's parts do not
+   * hang together; NaN and an error where they lie on two surfaces, or the surface was scaled or
+   * changed in between; one that was moved or turned is still the same. Takes about as long as
+   * building the surface did. `path`, where given, becomes the way as a polyline, where the surface
+   * was for the second landmark.
    */
   double GetGeodesicDistance(int first, int second, vtkPolyData* path = nullptr);
 

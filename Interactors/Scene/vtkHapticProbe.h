@@ -16,7 +16,7 @@
 #ifndef Haptics_vtkHapticProbe_h
 #define Haptics_vtkHapticProbe_h
 
-#include "vtkHapticsInteractorsModule.h"
+#include "vtkHapticsSceneModule.h"
 #include "vtkNew.h"
 #include "vtkObject.h"
 
@@ -32,7 +32,7 @@
 class vtkCellData;
 class vtkPointData;
 
-class VTKHAPTICSINTERACTORS_EXPORT vtkHapticProbe : public vtkObject
+class VTKHAPTICSSCENE_EXPORT vtkHapticProbe : public vtkObject
 {
 public:
   static vtkHapticProbe* New();

@@ -20,10 +20,10 @@
 #ifndef Haptics_vtkHapticSafety_h
 #define Haptics_vtkHapticSafety_h
 
-#include "vtkHapticsInteractorsModule.h"
+#include "vtkHapticsSceneModule.h"
 #include "vtkObject.h"
 
-class VTKHAPTICSINTERACTORS_EXPORT vtkHapticSafety : public vtkObject
+class VTKHAPTICSSCENE_EXPORT vtkHapticSafety : public vtkObject
 {
 public:
   static vtkHapticSafety* New();
@@ -42,9 +42,9 @@ public:
 
   ///@{
   /**
-   * For so long [s] after a start, a pause or a halt by the watchdog a force grows only so fast that
-   * it would take as long to the largest one; as fast goes what a change of surfaces under the hand
-   * or of the workspace does to it. Default 0.1. Set: 0.1 to 10. Loosen: 0 to 10.
+   * For so long [s] after a start, a pause or a halt by the watchdog a force grows only so fast
+   * that it would take as long to the largest one; as fast goes what a change of surfaces under the
+   * hand or of the workspace does to it. Default 0.1. Set: 0.1 to 10. Loosen: 0 to 10.
    */
   void SetSoftStartTime(double time);
   void LoosenSoftStartTime(double time);

@@ -2,10 +2,8 @@
 
 #include "haptics/Scene/HapticSceneInternals.h"
 #include "vtkActor.h"
-#include "vtkGodObjectActor.h"
 #include "vtkHapticDevice.h"
 #include "vtkHapticLandmarks.h"
-#include "vtkHapticOverlay.h"
 #include "vtkHapticServo.h"
 #include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
@@ -199,7 +197,7 @@ bool vtkHapticScene::PullState()
     this->Internal->Events.Add(vtkHapticScene::FaultEvent, haptics::SceneEvents::NoData);
   }
   this->NoticeDevice();
-  const bool changed = this->ShowState();
+  const bool changed = this->TakeState();
   this->ObeyButtons();
   if (this->Internal->Latest) // what came before has been probed by now
   {
@@ -239,10 +237,6 @@ void vtkHapticScene::PullRecords()
   for (const haptics::TickRecord& record : records)
   {
     this->Internal->Grip.Look(record, this->Internal->Surfaces);
-    if (this->Actor)
-    {
-      this->Actor->AddTrailPoint(record.Position.data(), record.NumberOfConstraints > 0);
-    }
     if (this->Recording && recorder.Size() >= this->MaximumTraceTicks)
     {
       this->Recording = false;
@@ -265,7 +259,7 @@ void vtkHapticScene::PullRecords()
   }
 }
 
-bool vtkHapticScene::ShowState()
+bool vtkHapticScene::TakeState()
 {
   if (!this->Internal->Latest)
   {
@@ -294,7 +288,7 @@ bool vtkHapticScene::ShowState()
     !std::equal(latest.Position.begin(), latest.Position.end(), this->GodObject) ||
     !std::equal(force.begin(), force.end(), this->Force) || touching != this->Touching ||
     squeezed != this->Squeezed || overloaded != this->Overloaded ||
-    (this->Actor && this->Internal->LandmarksShown != this->Landmarks->GetMTime());
+    this->Internal->LandmarksSeen != this->Landmarks->GetMTime();
 
   std::copy(latest.Hip.begin(), latest.Hip.end(), this->HapticInterfacePoint);
   std::copy(latest.Position.begin(), latest.Position.end(), this->GodObject);
@@ -306,7 +300,8 @@ bool vtkHapticScene::ShowState()
   this->TouchedSurface = cell.Surface;
   this->TouchedCell = cell.Cell;
 
-  this->ShowInPicture();
+  this->Internal->LandmarksSeen = this->Landmarks->GetMTime();
+  this->InvokeEvent(vtkHapticScene::StateEvent);
   return changed;
 }
 
@@ -350,7 +345,7 @@ void vtkHapticScene::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Surfaces: " << this->GetNumberOfSurfaces() << "\n";
   for (const auto& surface : this->Internal->Surfaces.All())
   {
-    os << next << surface->Id() << ": " << (surface->Actor() ? "actor" : "geometry") << ", "
+    os << next << surface->Id() << ": " << (surface->Moves() ? "actor" : "geometry") << ", "
        << (surface->Touched() ? "touchable" : "not touchable") << "\n";
   }
   print("HapticInterfacePoint [world unit]", this->HapticInterfacePoint);

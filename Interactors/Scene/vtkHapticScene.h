@@ -4,8 +4,9 @@
  *
  * Add surfaces (actors as a view shows them, or geometry), give a device, Engage(): from then on
  * the servo thread feels the surfaces at 1 kHz. Call Update() about as often as the picture is
- * drawn; it takes in changed surfaces, drains the servo's records, keeps GetGodObjectActor() up to
- * date and tells whether anything moved. vtkInteractorStyleHaptic calls it from a timer.
+ * drawn; it takes in changed surfaces, drains the servo's records and reports whether anything
+ * moved. vtkInteractorStyleHaptic calls it from a timer. The scene does not draw: a vtkHapticView
+ * shows it, and a program without one links no rendering library.
  *
  * Frames: surfaces, HIP and god-object are in the world frame [world unit]; device positions,
  * forces and stiffness in the device frame [m, N, N/m]. The workspace transform maps device to
@@ -20,36 +21,41 @@
  *
  * Every method is for the GUI thread.
  *
- * @sa vtkHapticServo vtkHapticDevice vtkGodObjectFilter vtkGodObjectActor vtkInteractorStyleHaptic
+ * @sa vtkHapticServo vtkHapticDevice vtkGodObjectFilter vtkHapticView vtkInteractorStyleHaptic
  */
 #ifndef Haptics_vtkHapticScene_h
 #define Haptics_vtkHapticScene_h
 
+#include "haptics/Math/Vec3.h"
 #include "vtkCommand.h"
-#include "vtkHapticsInteractorsModule.h"
+#include "vtkHapticsSceneModule.h"
 #include "vtkNew.h"
 #include "vtkObject.h"
 #include "vtkSmartPointer.h"
 
 #include <memory>
 #include <string>
+#include <vector>
+
+namespace haptics
+{
+struct TickRecord;
+}
 
 class vtkActor;
 class vtkAlgorithmOutput;
 class vtkAssembly;
 class vtkCamera;
-class vtkGodObjectActor;
 class vtkGodObjectFilter;
 class vtkHapticDevice;
 class vtkHapticLandmarks;
-class vtkHapticOverlay;
 class vtkHapticProbe;
 class vtkHapticProperties;
 class vtkHapticServo;
 class vtkMatrix4x4;
 class vtkPolyData;
 
-class VTKHAPTICSINTERACTORS_EXPORT vtkHapticScene : public vtkObject
+class VTKHAPTICSSCENE_EXPORT vtkHapticScene : public vtkObject
 {
 public:
   static vtkHapticScene* New();
@@ -81,7 +87,10 @@ public:
     BuildEvent,         ///< no data; a background build began, got on or ended: GetBuildProgress()
     GripEvent,          ///< int*: the id of the surface that the hand carries now
     LetGoEvent,         ///< int*: the id of the surface that it does not carry any more
-    SqueezeEvent ///< vtkHapticProbe: surfaces have closed in and leave the hand no place: no force
+    SqueezeEvent, ///< vtkHapticProbe: surfaces have closed in and leave the hand no place: no force
+    /// No data; the state has been taken in, before the events of what has happened in it. For
+    /// views, which see with it every tick once: GetNewTicks().
+    StateEvent
   };
 
   ///@{
@@ -386,16 +395,13 @@ public:
   /** Ticks since StartRecording() that the trace lacks. */
   vtkIdType GetNumberOfLostTicks();
 
+  /** The ticks that the last look at the servo has taken in, oldest first. C++ only. */
+  const std::vector<haptics::TickRecord>& GetNewTicks();
   /**
-   * The prop that shows the state; add it to a renderer. Never null. The first call makes it, which
-   * needs VTK's rendering back end (VTK::RenderingOpenGL2) in the program; nothing else here does.
+   * The corners of the triangles that hold the god-object after the last Update() or Step(), three
+   * each; world frame. C++ only.
    */
-  vtkGodObjectActor* GetGodObjectActor();
-  /**
-   * The force as bar and number, the read-out and the help; add it to a renderer. Never null. The
-   * first call makes it; its text needs VTK::RenderingFreeType in the program.
-   */
-  vtkHapticOverlay* GetOverlay();
+  std::vector<haptics::Vec3> GetActiveCorners();
   /** The servo: rate, statistics, priority. Its device and surfaces are this scene's business. */
   vtkHapticServo* GetServo();
   /**
@@ -425,19 +431,15 @@ private:
   void TellOfBuilds();
   bool PullState();
   void PullRecords();
-  bool ShowState();
+  bool TakeState();
   void NoticeDevice();
   void ObeyButtons();
   void ObeyGripButton();
   bool IsHandThere();
   bool CarryGripped();
   void UpdateProbe(bool touching);
-  void ShowInPicture();
-  std::string DescribeContact();
 
   vtkNew<vtkHapticServo> Servo;
-  vtkSmartPointer<vtkGodObjectActor> Actor;  // made when asked for: it needs a rendering back end
-  vtkSmartPointer<vtkHapticOverlay> Overlay; // as the actor
   vtkNew<vtkPolyData> Trace;
   vtkNew<vtkMatrix4x4> Workspace;
   vtkNew<vtkHapticLandmarks> Landmarks;

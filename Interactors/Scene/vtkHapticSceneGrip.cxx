@@ -48,7 +48,7 @@ bool vtkHapticScene::GripSurface(int id)
         : "There is no surface " + std::to_string(id) + " to grip.");
     return false;
   }
-  if (!surface->Actor())
+  if (!this->GetSurfaceActor(id))
   {
     this->Fail(name + NoActor);
     return false;

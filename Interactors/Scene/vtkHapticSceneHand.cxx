@@ -84,3 +84,32 @@ bool vtkHapticScene::GetClutched()
 {
   return this->Internal->Clutched;
 }
+
+void vtkHapticScene::UpdateProbe(bool touching)
+{
+  this->Probe = vtkSmartPointer<vtkHapticProbe>::New();
+  if (touching)
+  {
+    this->Internal->Surfaces.Probe(*this->Internal->Latest, this->Probe);
+  }
+}
+
+vtkHapticProbe* vtkHapticScene::GetProbe()
+{
+  if (!this->Probe)
+  {
+    this->UpdateProbe(this->Touching);
+  }
+  return this->Probe;
+}
+
+const std::vector<haptics::TickRecord>& vtkHapticScene::GetNewTicks()
+{
+  return this->Internal->Drained;
+}
+
+std::vector<haptics::Vec3> vtkHapticScene::GetActiveCorners()
+{
+  return this->Touching ? this->Internal->Surfaces.ActiveCorners(*this->Internal->Latest)
+                        : std::vector<haptics::Vec3>();
+}

@@ -27,7 +27,7 @@ int vtkHapticScene::AddSurface(vtkActor* actor)
     return known->Id();
   }
   this->Modified();
-  return this->Internal->Surfaces.Add(actor);
+  return this->Internal->Surfaces.Add(std::make_unique<haptics::ActorSource>(actor));
 }
 
 int vtkHapticScene::AddSurface(vtkAssembly* assembly)
@@ -57,7 +57,7 @@ int vtkHapticScene::AddSurface(vtkAlgorithmOutput* geometry)
     return -1;
   }
   this->Modified();
-  return this->Internal->Surfaces.Add(geometry);
+  return this->Internal->Surfaces.Add(std::make_unique<haptics::PortSource>(geometry));
 }
 
 int vtkHapticScene::AddSurface(vtkPolyData* geometry)

@@ -30,7 +30,7 @@
 #define Haptics_vtkHapticServo_h
 
 #include "vtkCommand.h"
-#include "vtkHapticsInteractorsModule.h"
+#include "vtkHapticsSceneModule.h"
 #include "vtkNew.h"
 #include "vtkObject.h"
 #include "vtkSmartPointer.h"
@@ -52,7 +52,7 @@ struct ServoReport;
 struct TickRecord;
 }
 
-class VTKHAPTICSINTERACTORS_EXPORT vtkHapticServo : public vtkObject
+class VTKHAPTICSSCENE_EXPORT vtkHapticServo : public vtkObject
 {
 public:
   static vtkHapticServo* New();

@@ -28,7 +28,7 @@
 #ifndef Haptics_vtkGodObjectActor_h
 #define Haptics_vtkGodObjectActor_h
 
-#include "vtkHapticsInteractorsModule.h"
+#include "vtkHapticsViewModule.h"
 #include "vtkNew.h"
 #include "vtkProp3D.h"
 #include "vtkSmartPointer.h"
@@ -41,7 +41,7 @@ class vtkProperty;
 class vtkRenderer;
 class vtkScalarBarActor;
 
-class VTKHAPTICSINTERACTORS_EXPORT vtkGodObjectActor : public vtkProp3D
+class VTKHAPTICSVIEW_EXPORT vtkGodObjectActor : public vtkProp3D
 {
 public:
   static vtkGodObjectActor* New();

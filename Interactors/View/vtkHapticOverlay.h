@@ -14,7 +14,7 @@
 #ifndef Haptics_vtkHapticOverlay_h
 #define Haptics_vtkHapticOverlay_h
 
-#include "vtkHapticsInteractorsModule.h"
+#include "vtkHapticsViewModule.h"
 #include "vtkNew.h"
 #include "vtkProp.h"
 
@@ -25,7 +25,7 @@ class vtkActor2D;
 class vtkPolyData;
 class vtkTextActor;
 
-class VTKHAPTICSINTERACTORS_EXPORT vtkHapticOverlay : public vtkProp
+class VTKHAPTICSVIEW_EXPORT vtkHapticOverlay : public vtkProp
 {
 public:
   static vtkHapticOverlay* New();

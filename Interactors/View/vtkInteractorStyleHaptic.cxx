@@ -9,6 +9,7 @@
 #include "vtkHapticLandmarks.h"
 #include "vtkHapticOverlay.h"
 #include "vtkHapticScene.h"
+#include "vtkHapticView.h"
 #include "vtkMouseHapticDevice.h"
 #include "vtkObjectFactory.h"
 #include "vtkRenderWindow.h"
@@ -53,6 +54,7 @@ constexpr const char* KeysHelp = "drag         turn the camera (Shift: pan, Ctrl
 vtkInteractorStyleHaptic::vtkInteractorStyleHaptic()
   : Scene(vtkSmartPointer<vtkHapticScene>::New())
 {
+  this->View->SetScene(this->Scene);
   this->InteractorCallback->SetClientData(this);
   this->InteractorCallback->SetCallback(vtkInteractorStyleHaptic::OnInteractorEvent);
   this->ClippingRangeCallback->SetClientData(this);
@@ -73,12 +75,18 @@ void vtkInteractorStyleHaptic::SetScene(vtkHapticScene* scene)
   }
   this->Scene =
     scene ? vtkSmartPointer<vtkHapticScene>(scene) : vtkSmartPointer<vtkHapticScene>::New();
+  this->View->SetScene(this->Scene);
   this->Modified();
 }
 
 vtkHapticScene* vtkInteractorStyleHaptic::GetScene()
 {
   return this->Scene;
+}
+
+vtkHapticView* vtkInteractorStyleHaptic::GetView()
+{
+  return this->View;
 }
 
 void vtkInteractorStyleHaptic::SetMaximumFrameRate(double rate)
@@ -215,7 +223,7 @@ vtkRenderer* vtkInteractorStyleHaptic::FindRenderer()
   {
     return nullptr;
   }
-  vtkProp* prop = this->Scene->GetGodObjectActor();
+  vtkProp* prop = this->View->GetGodObjectActor();
   vtkRendererCollection* renderers = window->GetRenderers();
   vtkCollectionSimpleIterator iterator;
   renderers->InitTraversal(iterator);
@@ -250,7 +258,7 @@ void vtkInteractorStyleHaptic::OnClippingRangeReset(
   vtkObject* caller, unsigned long, void* clientData, void*)
 {
   auto* self = static_cast<vtkInteractorStyleHaptic*>(clientData);
-  self->Scene->GetGodObjectActor()->IncludeInClippingRange(vtkRenderer::SafeDownCast(caller));
+  self->View->GetGodObjectActor()->IncludeInClippingRange(vtkRenderer::SafeDownCast(caller));
 }
 
 void vtkInteractorStyleHaptic::ConnectMouse()
@@ -265,7 +273,7 @@ void vtkInteractorStyleHaptic::ConnectMouse()
 
 void vtkInteractorStyleHaptic::ToggleHelp()
 {
-  vtkHapticOverlay* overlay = this->Scene->GetOverlay();
+  vtkHapticOverlay* overlay = this->View->GetOverlay();
   vtkRenderer* renderer = this->FindRenderer();
   if (!renderer)
   {
@@ -282,7 +290,7 @@ void vtkInteractorStyleHaptic::ToggleHelp()
 
 void vtkInteractorStyleHaptic::ToggleLook(char key)
 {
-  vtkGodObjectActor* actor = this->Scene->GetGodObjectActor();
+  vtkGodObjectActor* actor = this->View->GetGodObjectActor();
   switch (key)
   {
     case 'o':
@@ -419,7 +427,7 @@ void vtkInteractorStyleHaptic::Engage()
 
 void vtkInteractorStyleHaptic::ToggleTrail()
 {
-  vtkGodObjectActor* actor = this->Scene->GetGodObjectActor();
+  vtkGodObjectActor* actor = this->View->GetGodObjectActor();
   actor->SetShowTrail(!actor->GetShowTrail());
   if (!actor->GetShowTrail())
   {

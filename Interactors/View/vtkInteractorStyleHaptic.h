@@ -45,7 +45,7 @@
 #ifndef Haptics_vtkInteractorStyleHaptic_h
 #define Haptics_vtkInteractorStyleHaptic_h
 
-#include "vtkHapticsInteractorsModule.h"
+#include "vtkHapticsViewModule.h"
 #include "vtkInteractorStyleTrackballCamera.h"
 #include "vtkNew.h"
 #include "vtkSmartPointer.h"
@@ -55,9 +55,9 @@
 
 class vtkCallbackCommand;
 class vtkHapticScene;
+class vtkHapticView;
 
-class VTKHAPTICSINTERACTORS_EXPORT vtkInteractorStyleHaptic
-  : public vtkInteractorStyleTrackballCamera
+class VTKHAPTICSVIEW_EXPORT vtkInteractorStyleHaptic : public vtkInteractorStyleTrackballCamera
 {
 public:
   static vtkInteractorStyleHaptic* New();
@@ -67,11 +67,13 @@ public:
   ///@{
   /**
    * The scene that is kept up to date; by default one of its own, so never null. Null gives it a
-   * new one. Its GetGodObjectActor() is the caller's to add to a renderer.
+   * new one.
    */
   void SetScene(vtkHapticScene* scene);
   vtkHapticScene* GetScene();
   ///@}
+  /** Shows the scene; its props are the caller's to add to a renderer. Never null. */
+  vtkHapticView* GetView();
 
   ///@{
   /**
@@ -136,6 +138,7 @@ private:
   void Watch(vtkRenderer* renderer);
 
   vtkSmartPointer<vtkHapticScene> Scene;
+  vtkNew<vtkHapticView> View;
   vtkNew<vtkCallbackCommand> InteractorCallback;
   vtkNew<vtkCallbackCommand> ClippingRangeCallback;
   vtkWeakPointer<vtkRenderer> WatchedRenderer;

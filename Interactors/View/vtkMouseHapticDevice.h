@@ -44,7 +44,7 @@
 #define Haptics_vtkMouseHapticDevice_h
 
 #include "vtkHapticDevice.h"
-#include "vtkHapticsInteractorsModule.h"
+#include "vtkHapticsViewModule.h"
 #include "vtkNew.h"
 #include "vtkWeakPointer.h"
 
@@ -56,7 +56,7 @@ class vtkHapticScene;
 class vtkRenderWindowInteractor;
 class vtkRenderer;
 
-class VTKHAPTICSINTERACTORS_EXPORT vtkMouseHapticDevice : public vtkHapticDevice
+class VTKHAPTICSVIEW_EXPORT vtkMouseHapticDevice : public vtkHapticDevice
 {
 public:
   static vtkMouseHapticDevice* New();

@@ -8,6 +8,7 @@
 #include "vtkGodObjectFilter.h"
 #include "vtkHapticScene.h"
 #include "vtkHapticSurfaceRepresentation.h"
+#include "vtkHapticView.h"
 #include "vtkNew.h"
 #include "vtkPVHapticScene.h"
 #include "vtkPVRenderView.h"
@@ -31,6 +32,7 @@ public:
   };
 
   vtkNew<vtkHapticScene> Scene;
+  vtkNew<vtkHapticView> Picture;
   vtkWeakPointer<vtkPVRenderView> View;
   vtkWeakPointer<vtkRenderer> Renderer; // that shows the hand
   vtkWeakPointer<vtkRenderer> OverlayRenderer;
@@ -49,6 +51,8 @@ public:
   std::string ShownState;
   vtkNew<vtkStringArray> Probed;
 
+  Internals() { this->Picture->SetScene(this->Scene); }
+
   static vtkHapticSurfaceRepresentation* Active(vtkObject* representation)
   {
     if (auto* composite = vtkCompositeRepresentation::SafeDownCast(representation))
@@ -60,7 +64,7 @@ public:
 
   void Show(vtkRenderer* renderer)
   {
-    vtkGodObjectActor* hand = this->Scene->GetGodObjectActor();
+    vtkGodObjectActor* hand = this->Picture->GetGodObjectActor();
     if (renderer != this->Renderer)
     {
       if (this->Renderer)
@@ -84,7 +88,7 @@ public:
         ? this->View->GetUseDistributedRenderingForLODRender()
         : this->View->GetUseDistributedRenderingForRender();
       this->Show(remote ? this->View->GetNonCompositedRenderer() : this->View->GetRenderer());
-      this->Scene->GetGodObjectActor()->IncludeInClippingRange(this->Renderer);
+      this->Picture->GetGodObjectActor()->IncludeInClippingRange(this->Renderer);
     }
   }
 };

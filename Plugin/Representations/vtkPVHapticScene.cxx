@@ -70,6 +70,11 @@ vtkHapticScene* vtkPVHapticScene::GetScene()
   return this->Internal->Scene;
 }
 
+vtkHapticView* vtkPVHapticScene::GetPicture()
+{
+  return this->Internal->Picture;
+}
+
 //--- view -----------------------------------------------------------------------------------------
 
 vtkPVRenderView* vtkPVHapticScene::GetView()
@@ -103,7 +108,7 @@ void vtkPVHapticScene::SetView(vtkObject* object)
     self.Show(nullptr);
     if (self.OverlayRenderer)
     {
-      self.OverlayRenderer->RemoveViewProp(self.Scene->GetOverlay());
+      self.OverlayRenderer->RemoveViewProp(self.Picture->GetOverlay());
     }
     self.View->GetRenderWindow()->RemoveObserver(self.ViewObservers.at(0));
     self.View->RemoveObserver(self.ViewObservers.at(1));
@@ -118,7 +123,7 @@ void vtkPVHapticScene::SetView(vtkObject* object)
   if (view)
   {
     self.OverlayRenderer = view->GetNonCompositedRenderer();
-    self.OverlayRenderer->AddViewProp(self.Scene->GetOverlay());
+    self.OverlayRenderer->AddViewProp(self.Picture->GetOverlay());
     self.Show(view->GetRenderer());
     self.ViewObservers = { view->GetRenderWindow()->AddObserver(
                              vtkCommand::StartEvent, &self, &Internals::OnRender),

@@ -30,6 +30,7 @@
 #include <string>
 
 class vtkHapticScene;
+class vtkHapticView;
 class vtkPVRenderView;
 class vtkStringArray;
 
@@ -42,6 +43,8 @@ public:
 
   /** The scene itself. Its device and surfaces are this object's business. Never null. */
   vtkHapticScene* GetScene();
+  /** What shows it in the view: god-object and overlay. Never null. */
+  vtkHapticView* GetPicture();
 
   ///@{
   /**

@@ -117,17 +117,17 @@ bool vtkPVHapticScene::GetClutched()
 
 void vtkPVHapticScene::SetShowForce(bool show)
 {
-  this->Internal->Scene->GetOverlay()->SetShowForce(show);
+  this->Internal->Picture->GetOverlay()->SetShowForce(show);
 }
 
 void vtkPVHapticScene::SetShowReadout(bool show)
 {
-  this->Internal->Scene->GetOverlay()->SetShowReadout(show);
+  this->Internal->Picture->GetOverlay()->SetShowReadout(show);
 }
 
 void vtkPVHapticScene::SetShowTrail(bool show)
 {
-  this->Internal->Scene->GetGodObjectActor()->SetShowTrail(show);
+  this->Internal->Picture->GetGodObjectActor()->SetShowTrail(show);
 }
 
 void vtkPVHapticScene::SetRecordingFileName(const char* name)

@@ -14,7 +14,7 @@ import csv
 import sys
 import time
 
-from vtkhaptics import vtkHapticScene, vtkSimulatedHapticDevice
+from vtkhaptics import vtkHapticScene, vtkHapticView, vtkSimulatedHapticDevice
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkmodules.vtkRenderingCore import (
     vtkActor,
@@ -54,7 +54,9 @@ def make_scene(triangles):
     scene.AddSurface(actor)
     renderer = vtkRenderer()
     renderer.AddActor(actor)
-    renderer.AddActor(scene.GetGodObjectActor())
+    view = vtkHapticView()
+    view.SetScene(scene)
+    renderer.AddActor(view.GetGodObjectActor())
     window = vtkRenderWindow()
     window.SetOffScreenRendering(True)
     window.SetSize(1280, 960)

@@ -57,7 +57,7 @@ def hand_pixels(hand, view):
     """How many pixels show the hand, by the difference that hiding it makes."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
-    actor = hand.vtk.GetGodObjectActor()
+    actor = hand.picture.GetGodObjectActor()
     hand.set(ShowForce=0)
     pictures = []
     for shown in (1, 0):

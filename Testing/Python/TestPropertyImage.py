@@ -9,7 +9,7 @@ usage: TestPropertyImage.py BASELINE OUTPUT_FOLDER
 import sys
 
 from image_test import compare, look_from, make_window
-from vtkhaptics import vtkHapticProperties, vtkHapticScene, vtkSimulatedHapticDevice
+from vtkhaptics import vtkHapticProperties, vtkHapticScene, vtkHapticView, vtkSimulatedHapticDevice
 from vtkmodules.vtkCommonCore import vtkDoubleArray
 from vtkmodules.vtkCommonDataModel import vtkDataObject
 from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
@@ -48,7 +48,9 @@ scene.SetSurfacePropertyArray(
 )
 scene.GetSurfaceProperties(table).SetStaticFriction(1.2)
 scene.GetSurfaceProperties(table).SetDynamicFriction(0.9)
-hand = scene.GetGodObjectActor()
+view = vtkHapticView()
+view.SetScene(scene)
+hand = view.GetGodObjectActor()
 hand.ShowTrailOn()
 hand.SetSize(0.03)
 device.SetPosition(-0.035, 0.005, 0.03)

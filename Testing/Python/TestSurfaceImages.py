@@ -14,7 +14,7 @@ import os
 import sys
 
 from image_test import compare, look_from, make_window
-from vtkhaptics import vtkHapticScene, vtkSimulatedHapticDevice
+from vtkhaptics import vtkHapticScene, vtkHapticView, vtkSimulatedHapticDevice
 from vtkhaptics.picture import surface_actor
 from vtkhaptics.surfaces import read_surface
 from vtkmodules.vtkCommonCore import vtkLookupTable
@@ -84,7 +84,9 @@ def main(name, folder, baseline, output):
     scene.SetDevice(device)
     scene.SetStiffness(400.0)
     scene.AddSurface(surface)
-    hand = scene.GetGodObjectActor()
+    view = vtkHapticView()
+    view.SetScene(scene)
+    hand = view.GetGodObjectActor()
     hand.SetSize(0.025)
     hand.ShowTrailOn()
     renderer, window = make_window(actor, hand)

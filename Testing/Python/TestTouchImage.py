@@ -9,7 +9,7 @@ import math
 import sys
 
 from image_test import compare, look_from, make_window
-from vtkhaptics import vtkHapticScene, vtkSimulatedHapticDevice
+from vtkhaptics import vtkHapticScene, vtkHapticView, vtkSimulatedHapticDevice
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
@@ -45,7 +45,9 @@ surface = saddle(40)
 device, scene = vtkSimulatedHapticDevice(), vtkHapticScene()
 scene.SetDevice(device)
 scene.AddSurface(surface)
-hand = scene.GetGodObjectActor()
+view = vtkHapticView()
+view.SetScene(scene)
+hand = view.GetGodObjectActor()
 hand.ShowTrailOn()
 hand.SetSize(0.03)
 device.SetPosition(0.03, 0.0, 0.03)

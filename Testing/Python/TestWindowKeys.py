@@ -36,7 +36,7 @@ said = None
 def say(*_):
     global said
     scale = touch.scene.GetWorkspaceTransform().Determinant() / home
-    now = touch.scene.GetOverlay().GetShowHelp(), round(scale ** (1.0 / 3.0), 3)
+    now = touch.style.GetView().GetOverlay().GetShowHelp(), round(scale ** (1.0 / 3.0), 3)
     if now != said:
         said = now
         print(*now, flush=True)

@@ -4,6 +4,7 @@
 #include "vtkGodObjectActor.h"
 #include "vtkHapticOverlay.h"
 #include "vtkHapticScene.h"
+#include "vtkHapticView.h"
 #include "vtkInteractorStyleHaptic.h"
 #include "vtkMouseHapticDevice.h"
 #include "vtkNew.h"
@@ -33,8 +34,8 @@ int main()
 
   vtkNew<vtkRenderer> renderer;
   renderer->AddActor(actor);
-  renderer->AddViewProp(scene->GetGodObjectActor());
-  renderer->AddViewProp(scene->GetOverlay());
+  renderer->AddViewProp(style->GetView()->GetGodObjectActor());
+  renderer->AddViewProp(style->GetView()->GetOverlay());
   vtkNew<vtkRenderWindow> window;
   window->SetSize(300, 200);
   window->SetWindowName("VTK Haptics");

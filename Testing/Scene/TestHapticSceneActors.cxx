@@ -3,6 +3,7 @@
 #include "vtkActor.h"
 #include "vtkGodObjectActor.h"
 #include "vtkGodObjectFilter.h"
+#include "vtkHapticView.h"
 #include "vtkMatrix4x4.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
@@ -134,7 +135,9 @@ TEST(HapticSceneActors, TheGodObjectActorShowsTheStateAndStaysOutOfBoundsAndPick
 {
   LedHand hand;
   hand.Scene->AddSurface(MakeTable(0.0));
-  vtkGodObjectActor* shown = hand.Scene->GetGodObjectActor();
+  vtkNew<vtkHapticView> view;
+  view->SetScene(hand.Scene);
+  vtkGodObjectActor* shown = view->GetGodObjectActor();
   hand.MoveTo(0.01);
   hand.MoveTo(-0.005);
   EXPECT_TRUE(shown->GetTouching());

@@ -6,6 +6,7 @@
 #include "vtkCamera.h"
 #include "vtkGodObjectActor.h"
 #include "vtkHapticScene.h"
+#include "vtkHapticView.h"
 #include "vtkNew.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
@@ -53,7 +54,8 @@ struct TestHand
   {
     this->Scene->SetDevice(this->Device);
     this->Scene->SetStiffness(150.0);
-    this->Scene->GetGodObjectActor()->SetSize(0.03);
+    this->View->SetScene(this->Scene);
+    this->View->GetGodObjectActor()->SetSize(0.03);
   }
 
   /// Goes straight on from where it is, in 250 ticks; the first time it begins there.
@@ -74,6 +76,7 @@ struct TestHand
 
   vtkNew<vtkSimulatedHapticDevice> Device;
   vtkNew<vtkHapticScene> Scene;
+  vtkNew<vtkHapticView> View;
   double At[3] = { 0.0, 0.0, 0.0 };
   bool Began = false;
 };

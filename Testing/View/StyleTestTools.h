@@ -5,6 +5,7 @@
 
 #include "vtkActor.h"
 #include "vtkGodObjectActor.h"
+#include "vtkHapticView.h"
 #include "vtkInteractorStyleHaptic.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkRenderWindow.h"
@@ -30,7 +31,7 @@ struct Window
     mapper->SetInputData(MakeTable(0.0));
     this->Table->SetMapper(mapper);
     this->Renderer->AddActor(this->Table);
-    this->Renderer->AddViewProp(this->Hand.Scene->GetGodObjectActor());
+    this->Renderer->AddViewProp(this->Style->GetView()->GetGodObjectActor());
     this->RenderWindow->SetSize(100, 100);
     this->RenderWindow->AddRenderer(this->Renderer);
     this->Interactor->SetRenderWindow(this->RenderWindow);

@@ -1,6 +1,6 @@
 // A ball is gripped at its right side and carried to a block, which holds the point in the hand and
-// the ball with it: the ball lies against the block, far from where it was (drawn as wires), and the
-// arrow is the block's force. Seen to fail when the actor stays, and when it follows the HIP.
+// the ball with it: the ball lies against the block, far from where it was (drawn as wires), and
+// the arrow is the block's force. Seen to fail when the actor stays, and when it follows the HIP.
 #include "ImageTestTools.h"
 
 #include "vtkCubeSource.h"
@@ -35,7 +35,7 @@ int TestCarry(int argc, char* argv[])
   touch.Scene->AddSurface(table);
   touch.Scene->AddSurface(block);
   touch.Scene->AddSurface(ball.Actor);
-  vtkGodObjectActor* hand = touch.Scene->GetGodObjectActor();
+  vtkGodObjectActor* hand = touch.View->GetGodObjectActor();
   touch.MoveTo(-0.03, -0.005, 0.005);
   touch.MoveTo(-0.043, -0.005, 0.005);
   touch.Device->SetButtons(1u << 2);
@@ -45,7 +45,7 @@ int TestCarry(int argc, char* argv[])
   if (touch.Scene->GetGrippedSurface() < 0 || touch.Scene->GetForce()[0] > -1.0)
   {
     std::cerr << "The block holds nothing: force " << touch.Scene->GetForce()[0]
-         << " N along x, surface " << touch.Scene->GetGrippedSurface() << " gripped" << '\n';
+              << " N along x, surface " << touch.Scene->GetGrippedSurface() << " gripped" << '\n';
     return EXIT_FAILURE;
   }
 

@@ -30,7 +30,7 @@ int TestConcaveCorner(int argc, char* argv[])
 
   TestHand touch;
   touch.Scene->AddSurface(actor);
-  vtkGodObjectActor* hand = touch.Scene->GetGodObjectActor();
+  vtkGodObjectActor* hand = touch.View->GetGodObjectActor();
   hand->ShowTrailOn();
   hand->ShowActiveTrianglesOn();
   touch.MoveTo(0.07, 0.05, 0.02);

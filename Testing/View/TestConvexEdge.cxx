@@ -17,7 +17,7 @@ int TestConvexEdge(int argc, char* argv[])
 
   TestHand touch;
   touch.Scene->AddSurface(actor);
-  vtkGodObjectActor* hand = touch.Scene->GetGodObjectActor();
+  vtkGodObjectActor* hand = touch.View->GetGodObjectActor();
   hand->ShowTrailOn();
   touch.MoveTo(-0.02, -0.02, 0.06);
   touch.MoveTo(-0.02, -0.02, 0.04);
@@ -26,7 +26,7 @@ int TestConvexEdge(int argc, char* argv[])
   if (touch.Scene->GetForce()[0] < 1.0)
   {
     std::cerr << "The hand has not gone over the edge: its force is " << touch.Scene->GetForce()[0]
-         << " N to the right." << '\n';
+              << " N to the right." << '\n';
     return EXIT_FAILURE;
   }
 

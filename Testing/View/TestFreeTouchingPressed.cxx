@@ -26,11 +26,11 @@ int TestFreeTouchingPressed(int argc, char* argv[])
     }
   }
 
-  TestPicture picture(balls[0].Actor, touches[0].Scene->GetGodObjectActor());
+  TestPicture picture(balls[0].Actor, touches[0].View->GetGodObjectActor());
   for (int i = 1; i < 3; ++i)
   {
     picture.Renderer->AddActor(balls[i].Actor);
-    picture.Renderer->AddViewProp(touches[i].Scene->GetGodObjectActor());
+    picture.Renderer->AddViewProp(touches[i].View->GetGodObjectActor());
   }
   picture.LookFrom(0.0, -0.3, 0.1);
   return picture.Compare(argc, argv);

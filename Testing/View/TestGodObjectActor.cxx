@@ -1,6 +1,6 @@
 // The hand slides over a bump in virtual time: surface, god-object, HIP below it, spring, force
-// arrow and trail must be where the baseline has them. Seen to fail without the arrow, without the trail, and
-// with the god-object drawn at the HIP.
+// arrow and trail must be where the baseline has them. Seen to fail without the arrow, without the
+// trail, and with the god-object drawn at the HIP.
 #include "ImageTestTools.h"
 
 #include "vtkHapticScene.h"
@@ -18,7 +18,9 @@ int TestGodObjectActor(int argc, char* argv[])
   scene->AddSurface(bump.Actor);
   scene->SetDevice(device);
   scene->SetStiffness(150.0);
-  vtkGodObjectActor* hand = scene->GetGodObjectActor();
+  vtkNew<vtkHapticView> view;
+  view->SetScene(scene);
+  vtkGodObjectActor* hand = view->GetGodObjectActor();
   hand->ShowTrailOn();
   hand->SetSize(0.03);
   for (int tick = 0; tick <= 100; ++tick)

@@ -64,7 +64,7 @@ TEST(InteractorStyleHaptic, KeysEngageReleaseAndShowTheTrail)
   window.Press('h');
   EXPECT_FALSE(window.Hand.Scene->IsEngaged());
   window.Press('b');
-  EXPECT_TRUE(window.Hand.Scene->GetGodObjectActor()->GetShowTrail());
+  EXPECT_TRUE(window.Style->GetView()->GetGodObjectActor()->GetShowTrail());
 }
 
 TEST(InteractorStyleHaptic, KeysFitScaleAndResetTheWorkspace)
@@ -186,7 +186,9 @@ TEST(InteractorStyleHaptic, TwoStylesOnOneDeviceAreRefusedWithTheReason)
 TEST(HapticOverlay, ReadsOutWhichSurfaceIsTouchedAndWhyThereIsNoForce)
 {
   LedHand hand;
-  vtkHapticOverlay* overlay = hand.Scene->GetOverlay();
+  vtkNew<vtkHapticView> view;
+  view->SetScene(hand.Scene);
+  vtkHapticOverlay* overlay = view->GetOverlay();
   const int table = hand.Scene->AddSurface(MakeTable(0.0));
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(MakeTable(0.0));

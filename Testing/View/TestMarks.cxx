@@ -20,7 +20,9 @@ int TestMarks(int argc, char* argv[])
   scene->AddSurface(ball.Actor);
   scene->SetDevice(device);
   scene->SetStiffness(110.0);
-  vtkGodObjectActor* hand = scene->GetGodObjectActor();
+  vtkNew<vtkHapticView> view;
+  view->SetScene(scene);
+  vtkGodObjectActor* hand = view->GetGodObjectActor();
   hand->ShowTrailOn();
   hand->ShowActiveTrianglesOn();
   hand->ShowLegendOn();

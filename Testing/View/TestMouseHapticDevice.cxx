@@ -368,7 +368,7 @@ TEST(InteractorStyleHaptic, TheHelpNamesItsKeysAndTheMouse)
 {
   MouseWindow window;
   window.Press('?');
-  vtkHapticOverlay* overlay = window.Hand.Scene->GetOverlay();
+  vtkHapticOverlay* overlay = window.Style->GetView()->GetOverlay();
   EXPECT_TRUE(overlay->GetShowHelp());
   EXPECT_TRUE(window.Renderer->HasViewProp(overlay));
   for (const char* named : { "space", "wheel", "engage", "quit" })

@@ -20,16 +20,16 @@ int TestMouseTouch(int argc, char* argv[])
   vtkNew<vtkHapticScene> scene;
   scene->AddSurface(ball.Actor);
   scene->SetDevice(mouse);
-  vtkGodObjectActor* hand = scene->GetGodObjectActor();
+  vtkNew<vtkInteractorStyleHaptic> style;
+  style->SetScene(scene);
+  vtkGodObjectActor* hand = style->GetView()->GetGodObjectActor();
   hand->ShowTrailOn();
   hand->SetSize(0.03);
 
   TestPicture picture(ball.Actor, hand);
   vtkRenderer* const renderer = picture.Renderer;
   vtkRenderWindowInteractor* const interactor = picture.Interactor;
-  renderer->AddViewProp(scene->GetOverlay());
-  vtkNew<vtkInteractorStyleHaptic> style;
-  style->SetScene(scene);
+  renderer->AddViewProp(style->GetView()->GetOverlay());
   interactor->SetInteractorStyle(style);
   interactor->Initialize();
   renderer->ResetCamera();

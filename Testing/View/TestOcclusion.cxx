@@ -1,5 +1,6 @@
 // Two balls, each touched on its far side. Left: god-object, HIP and spring are seen through the
-// ball. Right (SeeThrough off): the ball hides them, and only the tip of the arrow looks over it. Seen to fail when both were seen through, and when neither was.
+// ball. Right (SeeThrough off): the ball hides them, and only the tip of the arrow looks over it.
+// Seen to fail when both were seen through, and when neither was.
 #include "ImageTestTools.h"
 
 #include <iostream>
@@ -14,7 +15,7 @@ int TestOcclusion(int argc, char* argv[])
     balls[i].Actor->SetPosition(x, 0.0, 0.0);
     TestHand& touch = touches[i];
     touch.Scene->AddSurface(balls[i].Actor);
-    touch.Scene->GetGodObjectActor()->SetSeeThrough(i == 0);
+    touch.View->GetGodObjectActor()->SetSeeThrough(i == 0);
     touch.MoveTo(x, 0.05, 0.05);
     touch.MoveTo(x, 0.01, 0.015);
     if (!touch.Scene->GetTouching())
@@ -24,9 +25,9 @@ int TestOcclusion(int argc, char* argv[])
     }
   }
 
-  TestPicture picture(balls[0].Actor, touches[0].Scene->GetGodObjectActor());
+  TestPicture picture(balls[0].Actor, touches[0].View->GetGodObjectActor());
   picture.Renderer->AddActor(balls[1].Actor);
-  picture.Renderer->AddViewProp(touches[1].Scene->GetGodObjectActor());
+  picture.Renderer->AddViewProp(touches[1].View->GetGodObjectActor());
   picture.LookFrom(0.0, -0.3, 0.0);
   return picture.Compare(argc, argv);
 }

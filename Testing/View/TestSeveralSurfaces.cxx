@@ -1,6 +1,6 @@
 // A ball that its actor's matrix has put on a table: the hand strokes the table, comes to the ball
-// and is held in the crease by both, each surface with its highlighted triangle. Seen to fail with the actor's matrix ignored, without the HIP, and with
-// the god-object drawn at the HIP.
+// and is held in the crease by both, each surface with its highlighted triangle. Seen to fail with
+// the actor's matrix ignored, without the HIP, and with the god-object drawn at the HIP.
 #include "ImageTestTools.h"
 
 #include "vtkPlaneSource.h"
@@ -23,7 +23,7 @@ int TestSeveralSurfaces(int argc, char* argv[])
   TestHand touch;
   touch.Scene->AddSurface(table);
   touch.Scene->AddSurface(ball.Actor);
-  vtkGodObjectActor* hand = touch.Scene->GetGodObjectActor();
+  vtkGodObjectActor* hand = touch.View->GetGodObjectActor();
   hand->ShowTrailOn();
   hand->ShowActiveTrianglesOn();
   touch.MoveTo(-0.05, -0.04, 0.01);
@@ -33,8 +33,8 @@ int TestSeveralSurfaces(int argc, char* argv[])
   const double* force = touch.Scene->GetForce();
   if (force[1] > -1.0 || force[2] < 1.0)
   {
-    std::cerr << "Not held by both: force (" << force[0] << ", " << force[1] << ", " << force[2] << ")"
-         << '\n';
+    std::cerr << "Not held by both: force (" << force[0] << ", " << force[1] << ", " << force[2]
+              << ")" << '\n';
     return EXIT_FAILURE;
   }
 

@@ -1,6 +1,6 @@
 // A plate 0.5 mm thick, pressed 25 mm deep: the god-object stays on the face where the hand came
-// in, while the HIP is seen far below the other one. Seen to fail without the spring, without the HIP, and with the god-object
-// drawn at the HIP.
+// in, while the HIP is seen far below the other one. Seen to fail without the spring, without the
+// HIP, and with the god-object drawn at the HIP.
 #include "ImageTestTools.h"
 
 #include "vtkCubeSource.h"
@@ -17,7 +17,7 @@ int TestThinPlate(int argc, char* argv[])
 
   TestHand touch;
   touch.Scene->AddSurface(actor);
-  vtkGodObjectActor* hand = touch.Scene->GetGodObjectActor();
+  vtkGodObjectActor* hand = touch.View->GetGodObjectActor();
   hand->ShowTrailOn();
   hand->SetReferenceForce(5.0);
   touch.MoveTo(-0.03, -0.02, 0.02);

@@ -14,7 +14,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkFiltersCore import vtkFlyingEdges3D
 
-from vtkhaptics import vtkHapticScene, vtkSimulatedHapticDevice
+from vtkhaptics import vtkHapticScene, vtkHapticView, vtkSimulatedHapticDevice
 
 if len(sys.argv) > 1:
     try:
@@ -80,16 +80,18 @@ def draw_loop(path):
 
     from vtkhaptics.picture import add_lights, surface_actor
 
-    hand = scene.GetGodObjectActor()
+    view = vtkHapticView()
+    view.SetScene(scene)
+    hand = view.GetGodObjectActor()
     hand.ColorForceByMagnitudeOn()
     hand.SetSize(0.03)
-    scene.GetOverlay().ShowReadoutOff()
+    view.GetOverlay().ShowReadoutOff()
     renderer, window = vtkRenderer(), vtkRenderWindow()
     renderer.SetBackground(1.0, 1.0, 1.0)
     add_lights(renderer)
     renderer.AddActor(surface_actor(contour.GetOutput(), (0.55, 0.72, 0.80)))
     renderer.AddViewProp(hand)
-    renderer.AddViewProp(scene.GetOverlay())
+    renderer.AddViewProp(view.GetOverlay())
     camera = renderer.GetActiveCamera()
     camera.SetPosition(0.06, -0.24, 0.12)
     camera.SetViewUp(0.0, 0.0, 1.0)

@@ -9,7 +9,7 @@ from vtkmodules.vtkCommonComputationalGeometry import vtkParametricTorus
 from vtkmodules.vtkFiltersSources import vtkParametricFunctionSource
 from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow
 
-from vtkhaptics import vtkHapticScene, vtkSimulatedHapticDevice
+from vtkhaptics import vtkHapticScene, vtkHapticView, vtkSimulatedHapticDevice
 from vtkhaptics.picture import add_lights, save_window, surface_actor
 
 ring = vtkParametricTorus()
@@ -23,7 +23,9 @@ torus.Update()
 device, scene = vtkSimulatedHapticDevice(), vtkHapticScene()
 scene.SetDevice(device)
 scene.AddSurface(torus.GetOutput())
-hand = scene.GetGodObjectActor()
+view = vtkHapticView()
+view.SetScene(scene)
+hand = view.GetGodObjectActor()
 hand.ShowTrailOn()
 hand.ColorForceByMagnitudeOn()
 for tick in range(1500):

@@ -32,7 +32,7 @@ try:
     import vtkmodules.vtkRenderingFreeType
     import vtkmodules.vtkRenderingOpenGL2
 
-    from . import vtkHapticsDevices, vtkHapticsFilters, vtkHapticsInteractors
+    from . import vtkHapticsDevices, vtkHapticsFilters, vtkHapticsScene, vtkHapticsView
 except ImportError as error:
     raise ImportError(
         "vtkhaptics: a compiled module could not be loaded (" + str(error) + "). "

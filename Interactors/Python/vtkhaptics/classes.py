@@ -21,10 +21,10 @@ from vtkmodules.util.vtkConstants import VTK_INT, VTK_OBJECT
 from vtkmodules.vtkCommonCore import reference, vtkCommand, vtkObject, vtkObjectBase
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 
-from . import vtkHapticsDevices, vtkHapticsFilters, vtkHapticsInteractors
+from . import vtkHapticsDevices, vtkHapticsFilters, vtkHapticsScene, vtkHapticsView
 from .errors import ERROR, WARNING, HapticsError, checked, guarded, watch
 
-MODULES = (vtkHapticsFilters, vtkHapticsDevices, vtkHapticsInteractors)
+MODULES = (vtkHapticsFilters, vtkHapticsDevices, vtkHapticsScene, vtkHapticsView)
 
 # Getters that fill lists, and how long these are; None stands for a number that is filled.
 OUTPUTS = {
@@ -184,7 +184,7 @@ class Scene(Extended):
 
     def __init__(self, *arguments):
         super().__init__(*arguments)
-        self._servo = vtkHapticsInteractors.vtkHapticScene.GetServo(self)
+        self._servo = vtkHapticsScene.vtkHapticScene.GetServo(self)
         watch(self._servo)
 
     @contextlib.contextmanager

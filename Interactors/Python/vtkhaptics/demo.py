@@ -134,13 +134,14 @@ def touch(scene, picture, options, window, interrupts, write):
     does so after that. Raises what `write` does, and KeyboardInterrupt."""
     seconds = options.seconds
     scene.StartRecording()
+    style = picture.style = vtkInteractorStyleHaptic()  # which keeps the hand in the picture
+    style.SetScene(scene)
     if window:
-        picture.renderer.AddViewProp(scene.GetGodObjectActor())
-        scene.GetGodObjectActor().ShowTrailOn()
+        hand = style.GetView().GetGodObjectActor()
+        picture.renderer.AddViewProp(hand)
+        hand.ShowTrailOn()
         interactor = vtkRenderWindowInteractor()
         interactor.SetRenderWindow(picture.window)
-        style = vtkInteractorStyleHaptic()
-        style.SetScene(scene)
         interactor.SetInteractorStyle(style)
         interactor.Initialize()
         picture.window.Render()
@@ -260,7 +261,7 @@ def report(options, scene, picture):
     writer.SetDataModeToBinary()  # see surfaces.py: not every VTK reads appended data
     write_atomically(trace_file, trace, writer)
     picture.add_stroke(stroke_lines(trace), picture.world_size(0.0035), strongest)
-    add_hand(picture, scene.GetGodObjectActor(), trace)
+    add_hand(picture, picture.style.GetView().GetGodObjectActor(), trace)
     picture.save(picture_file)
     print(f"picture: {picture_file}\ntrace:   {trace_file}", flush=True)
     return contact

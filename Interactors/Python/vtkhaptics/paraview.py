@@ -94,6 +94,13 @@ class Scene:
 
         return self.proxy.GetClientSideObject().GetScene()
 
+    @property
+    def picture(self):
+        """The vtkHapticView: how the hand and its force are drawn."""
+        from . import vtkHapticsRepresentations  # noqa: F401
+
+        return self.proxy.GetClientSideObject().GetPicture()
+
     def touch(self, source=None, view=None):
         """Shows a source (by default the active one) as Haptic Surface and adds it to the scene."""
         source = source or simple.GetActiveSource()

@@ -46,7 +46,8 @@ class Touch:
         """Lets go: no force, the plot as it was before, and nothing is updated any more."""
         self.scene.Release()
         self.scene.RemoveAllSurfaces()
-        for prop in (self.scene.GetGodObjectActor(), self.scene.GetOverlay()):
+        view = self.style.GetView()
+        for prop in (view.GetGodObjectActor(), view.GetOverlay()):
             self._renderer.RemoveViewProp(prop)
         if isinstance(self.device, vtkMouseHapticDevice):
             self.device.SetInteractor(None)
@@ -85,9 +86,9 @@ def enable(plotter, device=None, stiffness=500.0, overlay=True):
         scene.Engage()
     except HapticsError as error:
         raise ValueError(error.text) from error
-    renderer.AddViewProp(scene.GetGodObjectActor())
+    renderer.AddViewProp(style.GetView().GetGodObjectActor())
     if overlay:
-        renderer.AddViewProp(scene.GetOverlay())
+        renderer.AddViewProp(style.GetView().GetOverlay())
     _set_style(plotter, style)
     return touch
 

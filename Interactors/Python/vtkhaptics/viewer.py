@@ -144,10 +144,12 @@ class Viewer:
             )
         except SurfaceError as error:
             raise SurfaceError(f"{', '.join(self.options.surfaces)}: {error}") from error
-        self.hand = self.scene.GetGodObjectActor()
+        self.style = vtkInteractorStyleHaptic()
+        self.style.SetScene(self.scene)
+        self.hand = self.style.GetView().GetGodObjectActor()
         self.hand.ShowTrailOn()
         self.renderer.AddViewProp(self.hand)
-        self.renderer.AddViewProp(self.scene.GetOverlay())
+        self.renderer.AddViewProp(self.style.GetView().GetOverlay())
         self.interactor = vtkRenderWindowInteractor()
         self.interactor.SetRenderWindow(self.window)
         self.interactor.SetInteractorStyle(vtkInteractorStyleTrackballCamera())
@@ -188,8 +190,6 @@ class Viewer:
             if not self.scene.IsSurfaceTouchable(id_):
                 mine = [text for text in told if text.startswith(f"Surface {id_} (")]
                 raise SurfaceError(f"{path}: {(mine or told or ['cannot be touched.'])[0]}")
-        self.style = vtkInteractorStyleHaptic()
-        self.style.SetScene(self.scene)
         self.interactor.SetInteractorStyle(self.style)
         return True
 

@@ -1,0 +1,80 @@
+#ifndef Haptics_SurfaceSource_h
+#define Haptics_SurfaceSource_h
+
+#include "haptics/Scene/ActorMatrix.h"
+#include "vtkActor.h"
+#include "vtkAlgorithm.h"
+#include "vtkAlgorithmOutput.h"
+#include "vtkMapper.h"
+#include "vtkSmartPointer.h"
+
+#include <string>
+
+namespace haptics
+{
+/// @brief What a surface of a scene follows: its geometry, its place and whether it is shown.
+///
+/// All that a scene needs of what a view draws. An actor is asked by its virtual methods alone, so
+/// that a scene links no rendering library. GUI thread.
+class SurfaceSource
+{
+public:
+  virtual ~SurfaceSource();
+  /// Null where there is none, with an `error` that says what to do.
+  virtual vtkAlgorithmOutput* Geometry(std::string& error) = 0;
+  /// From the geometry's frame to the world.
+  virtual Matrix4 Matrix() { return IdentityMatrix; }
+  /// Whether the matrix may change.
+  virtual bool Moves() const { return false; }
+  /// Whether it is visible and pickable.
+  virtual bool IsShown() { return true; }
+  /// The actor that was given as this surface; null for any other source.
+  virtual vtkActor* Actor() const { return nullptr; }
+};
+
+/// An output port: geometry in the world frame.
+class PortSource : public SurfaceSource
+{
+public:
+  explicit PortSource(vtkAlgorithmOutput* port);
+  ~PortSource() override;
+  vtkAlgorithmOutput* Geometry(std::string& error) override;
+
+private:
+  vtkSmartPointer<vtkAlgorithm> Producer; // an output port does not keep its algorithm alive
+  vtkSmartPointer<vtkAlgorithmOutput> Port;
+};
+
+/// An actor that hangs in no assembly.
+class ActorSource : public SurfaceSource
+{
+public:
+  explicit ActorSource(vtkActor* actor);
+  ~ActorSource() override;
+  vtkAlgorithmOutput* Geometry(std::string& error) override;
+  Matrix4 Matrix() override;
+  bool Moves() const override { return true; }
+  bool IsShown() override;
+  vtkActor* Actor() const override { return this->Drawn; }
+
+private:
+  vtkSmartPointer<vtkActor> Drawn;
+};
+
+/// A place in an assembly, as the assembly says.
+class PartSource : public SurfaceSource
+{
+public:
+  ~PartSource() override;
+  vtkAlgorithmOutput* Geometry(std::string& error) override;
+  Matrix4 Matrix() override { return this->World; }
+  bool Moves() const override { return true; }
+  bool IsShown() override { return this->Shown; }
+
+  vtkSmartPointer<vtkMapper> Mapper;
+  Matrix4 World = IdentityMatrix;
+  bool Shown = true;
+};
+}
+
+#endif

@@ -1,0 +1,151 @@
+#include "vtkHapticView.h"
+
+#include "haptics/Tick/TickRecord.h"
+#include "vtkCallbackCommand.h"
+#include "vtkGodObjectActor.h"
+#include "vtkHapticLandmarks.h"
+#include "vtkHapticOverlay.h"
+#include "vtkHapticProbe.h"
+#include "vtkHapticScene.h"
+#include "vtkHapticServo.h"
+#include "vtkMath.h"
+#include "vtkObjectFactory.h"
+
+#include <vector>
+
+vtkStandardNewMacro(vtkHapticView);
+
+namespace
+{
+constexpr double UnlimitedBar = 3.3; // [N], a full bar where nothing limits the force
+}
+
+vtkHapticView::vtkHapticView()
+{
+  this->Callback->SetClientData(this);
+  this->Callback->SetCallback(vtkHapticView::OnSceneState);
+}
+
+vtkHapticView::~vtkHapticView()
+{
+  this->SetScene(nullptr);
+}
+
+void vtkHapticView::SetScene(vtkHapticScene* scene)
+{
+  if (scene == this->Scene)
+  {
+    return;
+  }
+  if (this->Scene)
+  {
+    this->Scene->RemoveObserver(this->Callback);
+  }
+  this->Scene = scene;
+  this->LandmarksShown = 0;
+  if (scene)
+  {
+    scene->AddObserver(vtkHapticScene::StateEvent, this->Callback);
+    this->Show();
+  }
+  this->Modified();
+}
+
+vtkHapticScene* vtkHapticView::GetScene()
+{
+  return this->Scene;
+}
+
+void vtkHapticView::OnSceneState(vtkObject*, unsigned long, void* clientData, void*)
+{
+  auto* self = static_cast<vtkHapticView*>(clientData);
+  self->ShowTrail();
+  self->Show();
+}
+
+void vtkHapticView::ShowTrail()
+{
+  if (this->Actor)
+  {
+    for (const haptics::TickRecord& tick : this->Scene->GetNewTicks())
+    {
+      this->Actor->AddTrailPoint(tick.Position.data(), tick.NumberOfConstraints > 0);
+    }
+  }
+}
+
+void vtkHapticView::Show()
+{
+  if (this->Overlay)
+  {
+    this->Overlay->SetForce(vtkMath::Norm(this->Scene->GetForce()));
+    const double limit = this->Scene->GetServo()->GetEffectiveMaximumForce();
+    this->Overlay->SetMaximumForce(limit > 0.0 && limit < VTK_DOUBLE_MAX ? limit : UnlimitedBar);
+    this->Overlay->SetReadout(this->Overlay->GetShowReadout() ? this->DescribeContact() : "");
+  }
+  if (this->Actor)
+  {
+    this->Actor->SetHapticInterfacePoint(this->Scene->GetHapticInterfacePoint());
+    this->Actor->SetGodObject(this->Scene->GetGodObject());
+    this->Actor->SetForce(this->Scene->GetForce());
+    this->Actor->SetTouching(this->Scene->GetTouching());
+    if (this->Actor->GetShowActiveTriangles() && this->Scene->GetTouching())
+    {
+      const std::vector<haptics::Vec3> corners = this->Scene->GetActiveCorners();
+      this->Actor->SetActiveTriangles(
+        corners.empty() ? nullptr : corners.front().data(), static_cast<int>(corners.size() / 3));
+    }
+    vtkHapticLandmarks* landmarks = this->Scene->GetLandmarks();
+    if (this->LandmarksShown != landmarks->GetMTime())
+    {
+      this->LandmarksShown = landmarks->GetMTime();
+      this->Actor->SetLandmarks(landmarks->GetOutput());
+    }
+  }
+}
+
+std::string vtkHapticView::DescribeContact()
+{
+  const std::string contact = this->Scene->GetProbe()->GetText();
+  const char* state = this->Scene->GetSqueezed() ? "surfaces leave no room here: no force"
+    : this->Scene->GetOverloaded()               ? "too many triangles here: held"
+    : this->Scene->IsSurfaceOutdated(this->Scene->GetTouchedSurface())
+    ? "older than shown: the newest is no good"
+    : "";
+  return contact + (contact.empty() || !*state ? "" : "\n") + state;
+}
+
+vtkGodObjectActor* vtkHapticView::GetGodObjectActor()
+{
+  if (!this->Actor)
+  {
+    this->Actor = vtkSmartPointer<vtkGodObjectActor>::New();
+    this->LandmarksShown = 0;
+    if (this->Scene)
+    {
+      this->Show();
+    }
+  }
+  return this->Actor;
+}
+
+vtkHapticOverlay* vtkHapticView::GetOverlay()
+{
+  if (!this->Overlay)
+  {
+    this->Overlay = vtkSmartPointer<vtkHapticOverlay>::New();
+    if (this->Scene)
+    {
+      this->Show();
+    }
+  }
+  return this->Overlay;
+}
+
+void vtkHapticView::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Scene: " << this->Scene.Get() << "\n";
+  os << indent << "GodObjectActor: " << this->Actor.Get() << "\n";
+  os << indent << "Overlay: " << this->Overlay.Get() << "\n";
+}
