@@ -1,0 +1,9 @@
+#ifndef Material_h
+#define Material_h
+
+struct Material
+{
+  float Shininess;
+};
+
+#endif
