@@ -14,6 +14,23 @@ vtkHapticDevice::~vtkHapticDevice()
   }
 }
 
+bool vtkHapticDevice::PlaysFile(const char*)
+{
+  return false;
+}
+
+bool vtkHapticDevice::UsesView()
+{
+  return false;
+}
+
+bool vtkHapticDevice::HasView()
+{
+  return false;
+}
+
+void vtkHapticDevice::ConnectView(vtkRenderWindowInteractor*, vtkHapticScene*) {}
+
 void vtkHapticDevice::Update()
 {
   if (this->State == Ready && this->Channel->IsLost())

@@ -30,6 +30,9 @@ class DeviceChannel;
 class MonitoredChannel;
 }
 
+class vtkHapticScene;
+class vtkRenderWindowInteractor;
+
 class VTKHAPTICSDEVICES_EXPORT vtkHapticDevice : public vtkObject
 {
 public:
@@ -70,8 +73,8 @@ public:
   /// Notice what happened on the servo thread: a device lost there becomes Faulted here. Cheap.
   virtual void Update();
 
-  /// Whether the device is open with other settings than it has now, so that it has to be closed and
-  /// opened for them. A scene does so before it engages or steps. Here false.
+  /// Whether the device is open with other settings than it has now, so that it has to be closed
+  /// and opened for them. A scene does so before it engages or steps. Here false.
   virtual bool HasChanged() { return false; }
 
   /// True from a successful Open() to Close() or a fault.
@@ -111,6 +114,20 @@ public:
   void GetPosition(double position[3]);
   void GetForce(double force[3]);
   unsigned int GetButtons();
+  ///@}
+
+  /** Whether it plays this file, by whichever name. Default: no. */
+  virtual bool PlaysFile(const char* fileName);
+
+  ///@{
+  /**
+   * A device that is moved by the mouse and keys of a view, where UsesView() is true, gets that
+   * view's interactor and the scene that it is to touch by ConnectView(); null for no view.
+   * HasView() is whether it has one. Defaults: no, does nothing, no.
+   */
+  virtual bool UsesView();
+  virtual bool HasView();
+  virtual void ConnectView(vtkRenderWindowInteractor* interactor, vtkHapticScene* scene);
   ///@}
 
   /**

@@ -6,6 +6,8 @@
 #include "vtkObjectFactory.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -98,6 +100,12 @@ bool vtkRecordedHapticDevice::Open()
   this->Recorded = std::make_shared<RecordedChannel>(std::move(recording.Ticks), 1.0 / header.Rate);
   this->BecomeReady(this->Recorded);
   return true;
+}
+
+bool vtkRecordedHapticDevice::PlaysFile(const char* fileName)
+{
+  std::error_code noSuchFile;
+  return fileName && std::filesystem::equivalent(this->FileName, fileName, noSuchFile);
 }
 
 void vtkRecordedHapticDevice::Close()

@@ -43,6 +43,7 @@ public:
   /// no whole tick, or its time does not go on.
   bool Open() override;
   void Close() override;
+  bool PlaysFile(const char* fileName) override;
 
   ///@{
   /// Of the recording as it was opened: ticks, length [s], the servo's rate [Hz]; 0 before.

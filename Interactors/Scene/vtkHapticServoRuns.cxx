@@ -5,25 +5,15 @@
 #include "vtkHapticSafety.h"
 
 #include "vtkHapticDevice.h"
-#include "vtkRecordedHapticDevice.h"
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <string>
-#include <system_error>
 #include <utility>
 
 namespace
 {
 constexpr double NanosecondsInSecond = 1e9;
-
-/// Also by two names. False where one of them does not exist.
-bool IsSameFile(const std::string& a, const std::string& b)
-{
-  std::error_code none;
-  return std::filesystem::equivalent(a, b, none);
-}
 }
 
 bool vtkHapticServo::Begin(int state)
@@ -50,8 +40,7 @@ bool vtkHapticServo::Begin(int state)
   this->UnrecordedTicks = 0;
   if (!this->RecordingFileName.empty())
   {
-    auto* played = vtkRecordedHapticDevice::SafeDownCast(this->Device);
-    if (played && IsSameFile(played->GetFileName(), this->RecordingFileName))
+    if (this->Device->PlaysFile(this->RecordingFileName.c_str()))
     {
       this->Internal->Unclaim();
       this->Fail("The recording " + this->RecordingFileName +
@@ -184,7 +173,8 @@ void vtkHapticServo::FinishRecording()
 {
   if (this->Internal->Recorder && !this->Internal->Recorder->IsHere())
   {
-    new std::shared_ptr<haptics::RecordingChannel>(this->Internal->Recorder); // its file is its parent's
+    new std::shared_ptr<haptics::RecordingChannel>(
+      this->Internal->Recorder); // its file is its parent's
     this->Internal->Recorder.reset();
   }
   if (this->Internal->Recorder)

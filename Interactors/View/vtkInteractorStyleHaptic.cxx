@@ -6,11 +6,11 @@
 #include "vtkCamera.h"
 #include "vtkCommand.h"
 #include "vtkGodObjectActor.h"
+#include "vtkHapticDevice.h"
 #include "vtkHapticLandmarks.h"
 #include "vtkHapticOverlay.h"
 #include "vtkHapticScene.h"
 #include "vtkHapticView.h"
-#include "vtkMouseHapticDevice.h"
 #include "vtkObjectFactory.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderWindowInteractor.h"
@@ -261,13 +261,12 @@ void vtkInteractorStyleHaptic::OnClippingRangeReset(
   self->View->GetGodObjectActor()->IncludeInClippingRange(vtkRenderer::SafeDownCast(caller));
 }
 
-void vtkInteractorStyleHaptic::ConnectMouse()
+void vtkInteractorStyleHaptic::ConnectDevice()
 {
-  auto* mouse = vtkMouseHapticDevice::SafeDownCast(this->Scene->GetDevice());
-  if (mouse && this->Interactor && !mouse->GetInteractor())
+  vtkHapticDevice* device = this->Scene->GetDevice();
+  if (device && this->Interactor && device->UsesView() && !device->HasView())
   {
-    mouse->SetInteractor(this->Interactor);
-    mouse->SetScene(this->Scene);
+    device->ConnectView(this->Interactor, this->Scene);
   }
 }
 
@@ -283,7 +282,8 @@ void vtkInteractorStyleHaptic::ToggleHelp()
   {
     renderer->AddViewProp(overlay);
   }
-  const bool mouse = vtkMouseHapticDevice::SafeDownCast(this->Scene->GetDevice()) != nullptr;
+  vtkHapticDevice* device = this->Scene->GetDevice();
+  const bool mouse = device && device->UsesView();
   overlay->SetHelp(std::string(mouse ? MouseHelp : "") + KeysHelp);
   overlay->SetShowHelp(!overlay->GetShowHelp());
 }
@@ -309,7 +309,7 @@ void vtkInteractorStyleHaptic::ToggleLook(char key)
 
 bool vtkInteractorStyleHaptic::UpdateScene()
 {
-  this->ConnectMouse();
+  this->ConnectDevice();
   this->MustRender = this->Scene->Update() || this->MustRender;
   vtkRenderer* renderer = this->FindRenderer();
   this->Watch(renderer);

@@ -121,7 +121,7 @@ private:
     vtkObject* caller, unsigned long event, void* clientData, void* callData);
   static void OnClippingRangeReset(
     vtkObject* caller, unsigned long event, void* clientData, void* callData);
-  void ConnectMouse();
+  void ConnectDevice();
   void Exit();
   void RenderSoon();
   void Engage();

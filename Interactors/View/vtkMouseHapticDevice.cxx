@@ -282,6 +282,17 @@ void vtkMouseHapticDevice::OnEvent(
 }
 
 /// Whether a scene asks where the hand is. Before and after, the mouse is the camera's alone.
+bool vtkMouseHapticDevice::HasView()
+{
+  return this->Interactor != nullptr;
+}
+
+void vtkMouseHapticDevice::ConnectView(vtkRenderWindowInteractor* interactor, vtkHapticScene* scene)
+{
+  this->SetInteractor(interactor);
+  this->SetScene(scene);
+}
+
 bool vtkMouseHapticDevice::IsInUse()
 {
   const int state = this->Scene ? this->Scene->GetServo()->GetState() : vtkHapticServo::Running;

@@ -65,6 +65,9 @@ public:
 
   bool Open() override;
   void Close() override;
+  bool UsesView() override { return true; }
+  bool HasView() override;
+  void ConnectView(vtkRenderWindowInteractor* interactor, vtkHapticScene* scene) override;
 
   ///@{
   /** Whose mouse and keys move the hand; null by default. Not kept alive. */

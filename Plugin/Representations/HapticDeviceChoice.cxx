@@ -46,7 +46,8 @@ DeviceChoice DeviceChoice::Make(const std::string& name, std::string& error)
   DeviceChoice choice;
   if (name == "mouse")
   {
-    choice.Chosen = vtkSmartPointer<vtkMouseHapticDevice>::New();
+    choice.Mouse = vtkSmartPointer<vtkMouseHapticDevice>::New();
+    choice.Chosen = choice.Mouse;
   }
   else if (name == "falcon")
   {
@@ -54,7 +55,8 @@ DeviceChoice DeviceChoice::Make(const std::string& name, std::string& error)
   }
   else if (name == "simulated")
   {
-    choice.Chosen = vtkSmartPointer<vtkSimulatedHapticDevice>::New();
+    choice.Simulated = vtkSmartPointer<vtkSimulatedHapticDevice>::New();
+    choice.Chosen = choice.Simulated;
     choice.MakesStroke = true;
   }
   else if (!vtksys::SystemTools::FileExists(name, true))
@@ -77,7 +79,8 @@ DeviceChoice DeviceChoice::Make(const std::string& name, std::string& error)
   }
   else if (choice.ReadPath(name, error))
   {
-    choice.Chosen = vtkSmartPointer<vtkSimulatedHapticDevice>::New();
+    choice.Simulated = vtkSmartPointer<vtkSimulatedHapticDevice>::New();
+    choice.Chosen = choice.Simulated;
   }
   return choice;
 }
@@ -159,23 +162,21 @@ bool DeviceChoice::MakeStroke(vtkHapticScene* scene)
   }
   points->InsertNextPoint(last);
   this->Path = Polyline(points, nullptr);
-  auto* simulated = vtkSimulatedHapticDevice::SafeDownCast(this->Chosen);
-  simulated->SetSpeed(StrokeSpeed);
-  simulated->LoopOn();
+  this->Simulated->SetSpeed(StrokeSpeed);
+  this->Simulated->LoopOn();
   return true;
 }
 
 void DeviceChoice::FollowPath(vtkMatrix4x4* deviceToWorld)
 {
-  if (auto* mouse = vtkMouseHapticDevice::SafeDownCast(this->Chosen))
+  if (this->Mouse)
   {
     // It has no place of its own, and what is new is approached from the front.
-    const double* reach = mouse->GetWorkspaceBounds();
-    mouse->Close();
-    mouse->SetTarget(0.5 * (reach[0] + reach[1]), 0.5 * (reach[2] + reach[3]), reach[5]);
+    const double* reach = this->Mouse->GetWorkspaceBounds();
+    this->Mouse->Close();
+    this->Mouse->SetTarget(0.5 * (reach[0] + reach[1]), 0.5 * (reach[2] + reach[3]), reach[5]);
   }
-  auto* simulated = vtkSimulatedHapticDevice::SafeDownCast(this->Chosen);
-  if (!simulated || !this->Path)
+  if (!this->Simulated || !this->Path)
   {
     return;
   }
@@ -190,8 +191,8 @@ void DeviceChoice::FollowPath(vtkMatrix4x4* deviceToWorld)
     toDevice->MultiplyPoint(point, point);
     points->InsertNextPoint(point);
   }
-  simulated->Close();
-  simulated->SetPath(Polyline(points, this->Path->GetPointData()->GetArray("Time")));
-  simulated->SetMotionToPolyline();
+  this->Simulated->Close();
+  this->Simulated->SetPath(Polyline(points, this->Path->GetPointData()->GetArray("Time")));
+  this->Simulated->SetMotionToPolyline();
 }
 }

@@ -2,7 +2,9 @@
 #define Haptics_HapticDeviceChoice_h
 
 #include "vtkHapticDevice.h"
+#include "vtkMouseHapticDevice.h"
 #include "vtkPolyData.h"
+#include "vtkSimulatedHapticDevice.h"
 #include "vtkSmartPointer.h"
 
 #include <string>
@@ -43,6 +45,8 @@ private:
   bool ReadPath(const std::string& file, std::string& error);
 
   vtkSmartPointer<vtkHapticDevice> Chosen;
+  vtkSmartPointer<vtkMouseHapticDevice> Mouse;         ///< where that was chosen, else null
+  vtkSmartPointer<vtkSimulatedHapticDevice> Simulated; ///< likewise
   vtkSmartPointer<vtkPolyData> Path;
   bool MakesStroke = false;
 };

@@ -5,10 +5,8 @@
 #include "vtkHapticOverlay.h"
 #include "vtkHapticServo.h"
 #include "vtkMapper.h"
-#include "vtkMouseHapticDevice.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
-#include "vtkRecordedHapticDevice.h"
 #include "vtkRenderWindow.h"
 
 #include <algorithm>
@@ -115,9 +113,9 @@ void vtkPVHapticScene::SetView(vtkObject* object)
     self.ViewObservers.clear();
   }
   self.View = view;
-  if (auto* mouse = vtkMouseHapticDevice::SafeDownCast(self.Scene->GetDevice()))
+  if (vtkHapticDevice* device = self.Scene->GetDevice())
   {
-    mouse->SetInteractor(view ? view->GetInteractor() : nullptr);
+    device->ConnectView(view ? view->GetInteractor() : nullptr, self.Scene);
   }
   self.Fitted = false; // another view looks elsewhere
   if (view)
@@ -265,20 +263,9 @@ bool vtkPVHapticScene::ChooseDevice()
     this->Fail(error);
     return false;
   }
-  // Only an open recording knows how far its device reached.
-  if (vtkRecordedHapticDevice::SafeDownCast(self.Choice.Device()) && !self.Choice.Device()->Open())
-  {
-    this->Fail(self.Choice.Device()->GetErrorMessage());
-    self.Choice = haptics::DeviceChoice();
-    return false;
-  }
   self.Scene->SetDevice(self.Choice.Device());
   self.PathIsKnown = false;
-  if (auto* mouse = vtkMouseHapticDevice::SafeDownCast(self.Choice.Device()))
-  {
-    mouse->SetScene(self.Scene);
-    mouse->SetInteractor(self.View ? self.View->GetInteractor() : nullptr);
-  }
+  self.Choice.Device()->ConnectView(self.View ? self.View->GetInteractor() : nullptr, self.Scene);
   return true;
 }
 

@@ -49,8 +49,7 @@ class Touch:
         view = self.style.GetView()
         for prop in (view.GetGodObjectActor(), view.GetOverlay()):
             self._renderer.RemoveViewProp(prop)
-        if isinstance(self.device, vtkMouseHapticDevice):
-            self.device.SetInteractor(None)
+        self.device.ConnectView(None, None)
         interactor, _ = _view_of(self._plotter)
         self._leave_interrupts(interactor)
         if interactor.GetInteractorStyle() is self.style:
