@@ -84,6 +84,11 @@ void GodObject::Implementation::UpdateMaterial()
       const WorkingSet& set = this->Sets[plane.Facet.Surface];
       const auto weights = set.CornerWeights(triangle);
       feel = properties->At(touched.Surface->Triangles()[triangle], triangle, weights);
+      if (properties->HasGradients())
+      {
+        properties->AddGradients(touched.Surface->Triangles()[triangle], triangle, weights,
+          set.WeightGradients(triangle), feel);
+      }
       if (properties->IsShaded())
       {
         shaded = set.Frame().VectorToScene(ToVector(properties->NormalAt(triangle, weights)));

@@ -627,6 +627,20 @@ bool WorkingSet::IsPassedOver(
   return this->CoverageAt(plane, position, nearest) == Coverage::Reach && other.PassesOver(nearest);
 }
 
+std::array<Vec3, 2> WorkingSet::WeightGradients(std::int32_t triangle) const
+{
+  const auto [a, b, c] = this->CornersOf(triangle);
+  const Vector normal = glm::cross(b - a, c - a);
+  const double squared = glm::dot(normal, normal);
+  if (!(squared > 0.0))
+  {
+    return {};
+  }
+  const auto inScene = [this, squared](const Vector& v)
+  { return ToVec3(this->Frame().VectorToScene(v / squared)); };
+  return { inScene(glm::cross(c - a, normal)), inScene(glm::cross(normal, b - a)) };
+}
+
 std::array<double, 3> WorkingSet::CornerWeights(std::int32_t triangle) const
 {
   const auto [a, b, c] = this->CornersOf(triangle);

@@ -136,6 +136,8 @@ public:
 
   /// How much each corner of a triangle counts where the god-object stands over it: >= 0, sum 1.
   std::array<double, 3> CornerWeights(std::int32_t triangle) const;
+  /// How the weights of its second and third corner rise over the triangle, scene frame.
+  std::array<Vec3, 2> WeightGradients(std::int32_t triangle) const;
 
 private:
   enum class Region

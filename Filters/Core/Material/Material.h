@@ -1,6 +1,8 @@
 #ifndef Haptics_Material_h
 #define Haptics_Material_h
 
+#include "haptics/Math/Vec3.h"
+
 namespace haptics
 {
 class ForceProfile;
@@ -24,6 +26,20 @@ struct Material
   double StaticFriction = 0.0;  ///< pull over push at which the god-object breaks away
   double DynamicFriction = 0.0; ///< pull over push while it slides
   double Texture = 0.0;         ///< by so much of itself the force is changed, +-LargestTexture
+  ///@{
+  /// How stiffness, plain share and texture rise along the surface, each facet by its share of the
+  /// push: gradients over one metre of the hand's way. Zero where a value is the same all over, or
+  /// over a triangle.
+  Vec3 StiffnessGradient{};  ///< [N/m^2]
+  Vec3 PlainShareGradient{}; ///< [1/m]
+  Vec3 TextureGradient{};    ///< [1/m]
+  ///@}
+  ///@{
+  /// The largest that these surfaces have anywhere.
+  double LargestStiffness = 0.0;  ///< [N/m] of their own
+  double LargestPlainShare = 1.0; ///< 0 or 1
+  double LargestTexture = 0.0;    ///< >= 0
+  ///@}
   /// In place of the stiffness; null: none. Of the surface that is pushed most; it lives as long
   /// as the god-object.
   const ForceProfile* Profile = nullptr;

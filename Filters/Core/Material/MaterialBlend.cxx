@@ -1,5 +1,7 @@
 #include "haptics/Material/MaterialBlend.h"
 
+#include <algorithm>
+
 namespace haptics
 {
 void MaterialBlend::Add(
@@ -8,6 +10,7 @@ void MaterialBlend::Add(
   if (this->Push == 0.0)
   {
     this->Sum.PlainShare = 0.0;
+    this->Sum.LargestPlainShare = 0.0;
   }
   this->Push += push;
   this->Sum.Stiffness += push * feel.Stiffness;
@@ -16,6 +19,14 @@ void MaterialBlend::Add(
   this->Sum.StaticFriction += push * feel.StaticFriction;
   this->Sum.DynamicFriction += push * feel.DynamicFriction;
   this->Sum.Texture += push * feel.Texture;
+  const auto add = [push](Vec3& sum, const Vec3& gradient)
+  { sum = ToVec3(ToVector(sum) + push * ToVector(gradient)); };
+  add(this->Sum.StiffnessGradient, feel.StiffnessGradient);
+  add(this->Sum.PlainShareGradient, feel.PlainShareGradient);
+  add(this->Sum.TextureGradient, feel.TextureGradient);
+  this->Sum.LargestStiffness = std::max(this->Sum.LargestStiffness, feel.LargestStiffness);
+  this->Sum.LargestPlainShare = std::max(this->Sum.LargestPlainShare, feel.LargestPlainShare);
+  this->Sum.LargestTexture = std::max(this->Sum.LargestTexture, feel.LargestTexture);
   if (push > this->StrongestPush)
   {
     this->StrongestPush = push;
@@ -43,6 +54,11 @@ Material MaterialBlend::Blended() const
     feel.StaticFriction *= share;
     feel.DynamicFriction *= share;
     feel.Texture *= share;
+    for (Vec3* const gradient :
+      { &feel.StiffnessGradient, &feel.PlainShareGradient, &feel.TextureGradient })
+    {
+      *gradient = ToVec3(share * ToVector(*gradient));
+    }
     feel.IsShaded = this->IsShaded;
   }
   return feel;

@@ -22,32 +22,51 @@ struct MaterialLimits
 ///
 /// Where nothing has properties since the touch began it is the spring K (p - h) and nothing else.
 ///
-///     law: gain · phi(depth), phi the depth or a profile, along the displacement
-///       + shading: the same turned, less itself     + damping: -B · velocity
+///     F = gain phi(d) n  -  U(d) P grad(gain)  +  resistance  +  shading  +  damping
 ///
-/// **No energy is made.** A law that does not change is the slope of a potential and makes none on
-/// any closed way. What may make some is paid out of a tank:
+/// with the depth d = |p - h|, n = (p - h) / d, phi the depth or a profile, U its integral over the
+/// depth, P the projection on the directions in which the planes in contact let the god-object go.
 ///
-/// - it is filled by what is lost for the hand: a gain that falls under a spring that is pressed,
-///   the friction's work, the damping's work;
-/// - a gain rises only by what the tank holds: dK <= 2E/d^2 for a linear spring (where a stiffness,
-///   a texture or the surface itself changes under a hand that presses d deep, dK d^2/2 would come
-///   from nowhere). It rises freely at a new touch;
-/// - force shading that pushes the way the hand goes does so only as far as the tank holds.
+/// **What varies over a surface is felt while sliding.** The first two terms are the slope of one
+/// potential, gain(p) U(d) (for a linear spring K(p) d^2 / 2): from soft to hard a hand does work
+/// against the second one, from hard to soft it gets it back. It takes SlopeMargin more than it
+/// gives, for what happens within a tick. It acts on what has a gradient (values at points,
+/// images), is never more than the first one, and is left out where there is friction, which takes
+/// what it needs.
 ///
-/// Energies are those of the force that changes evenly over a tick (trapezoids); that a servo holds
-/// it instead is what the device's own damping pays for, under K <= 2b/T. What is left when the
-/// hand lets go is forgotten; a debt is kept. Force that the largest force cuts off fills no tank.
+/// **No energy is made.** Every other rise of the gain (cells with values of their own, planes that
+/// share the push, a rough or exchanged surface) is paid out of a tank. It is filled by what is
+/// lost for the hand: a gain that falls under a spring that is pressed, friction, damping, and the
+/// resistance, by which the hand pays what is missing over the next JumpWidth of its way, with at
+/// most as much as the spring pushes. So a jump of the stiffness is spread over about that width,
+/// deep in a soft surface over some times that. At a new touch the gain is free.
 ///
-/// **Damping** uses the velocity of the HIP through a filter of first order with a time constant of
-/// 5 ms: that is its delay, for all slow motions. It is at most MaterialLimits::Damping, and never
-/// pulls towards the surface. What it costs of the stable stiffness is |B| (Colgate and Schenkel:
-/// b > KT/2 + |B|), which MaterialLimits::Stiffness has to account for.
+/// The tank holds no more than what one contact can need: dK d^2 / 2 up to the stiffest place of
+/// the surface, and with force shading, which pushes the way the hand goes only as far as the tank
+/// holds, as much as is in the spring. It leaks, with a time constant of TankMemory: what is felt
+/// does not depend on what was rubbed before. A debt of Credit of what is in the spring may stand
+/// while the hand slides; it is taken off the gain as the hand lets go.
+///
+/// Energies are those of the force that changes evenly over a tick (trapezoids), of the hand's
+/// motion against the surface, which may move; that a servo holds the force instead is what the
+/// device's own damping pays for, under K <= 2b/T. What is left when the hand lets go is forgotten;
+/// a debt is kept. Force that the largest force cuts off fills no tank.
+///
+/// **Damping** uses the velocity of the HIP against the surface, from the second tick of a contact
+/// on, through a filter of first order with a time constant of 5 ms: that is its delay, for all
+/// slow motions. It is at most MaterialLimits::Damping, and never pulls towards the surface. What
+/// it costs of the stable stiffness is |B| (Colgate and Schenkel: b > KT/2 + |B|), which
+/// MaterialLimits::Stiffness has to account for.
 ///
 /// Servo thread; no allocation, no lock.
 class VTKHAPTICSCORE_EXPORT SurfaceForce
 {
 public:
+  static constexpr double JumpWidth = 0.002;  ///< [m] of the hand's way
+  static constexpr double TankMemory = 0.1;   ///< [s]
+  static constexpr double SlopeMargin = 0.02; ///< of the lateral force
+  static constexpr double Credit = 0.03;      ///< of what the spring holds
+
   /// Forgets everything.
   void Restart() noexcept { *this = SurfaceForce(); }
   /// The force [N], not longer than the largest one. `contact`: device frame; `period` since the
@@ -71,9 +90,19 @@ public:
 private:
   Vec3 PlainForce(const Contact& contact, double depth, double plainStiffness,
     const MaterialLimits& limits) noexcept;
-  double WantedGain(
-    const Material& felt, double plainStiffness, const MaterialLimits& limits) noexcept;
-  void SetGain(const Contact& contact, double wanted, double depth) noexcept;
+  /// What a surface asks for, and what the energies of a tick need to know.
+  struct Wish
+  {
+    double Gain = 0.0;    ///< within the limits
+    double Largest = 0.0; ///< of the surface anywhere, within the limits
+    Vec3 Gradient{};      ///< of the gain, in the directions that are free [per m]
+  };
+  Wish WishOf(const Contact& contact, double plainStiffness, const MaterialLimits& limits) noexcept;
+  Vec3 Lateral(const Contact& contact, const Wish& wish, double depth) const noexcept;
+  void SetGain(const Contact& contact, const Wish& wish, double depth, const Vec3& step,
+    const Vec3& lateral, double period) noexcept;
+  Vec3 Shading(const Contact& contact, const Vec3& step, double magnitude, double period) noexcept;
+  Vec3 Damping(const Contact& contact, double magnitude, double largest) const noexcept;
 
   bool WasTouching = false;
   bool HasProperties = false; ///< something touched since the touch began has some
@@ -83,13 +112,15 @@ private:
   double Tank = 0.0;
   double Gain = 0.0;
   double Stiffness = 0.0;
+  double Missing = 0.0;                  ///< for the gain that is wanted [J]
   double Depth = 0.0;                    ///< at the last tick [m]
   double Stored = 0.0;                   ///< in the spring at the last tick [J]
   const ForceProfile* Profile = nullptr; ///< of the last tick; only compared: it may be gone
   Vec3 Position{};
-  Vec3 Velocity{};   ///< filtered [m/s]
-  Vec3 LawForce{};   ///< of the last tick [N]
-  Vec3 OtherForce{}; ///< shading and damping of the last tick [N]
+  Vec3 Velocity{};     ///< against the surface, filtered [m/s]
+  Vec3 LawForce{};     ///< of the last tick [N]
+  Vec3 LateralForce{}; ///< the gradient's and the resistance, of the last tick [N]
+  Vec3 OtherForce{};   ///< shading and damping of the last tick [N]
 };
 }
 

@@ -171,6 +171,7 @@ std::shared_ptr<const SurfaceProperties> SurfaceProperties::Build(
   }
   std::shared_ptr<SurfaceProperties> properties(new SurfaceProperties);
   properties->Given = std::move(values);
+  properties->FindLargest();
   if (properties->Given.Shading)
   {
     properties->Normals = ShadingNormals(surface, properties->Given.FeatureAngle);
@@ -223,8 +224,7 @@ double SurfaceProperties::Value(Property property, const Triangle& corners, std:
 Material SurfaceProperties::At(
   const Triangle& points, std::int32_t triangle, const Corners& weights) const noexcept
 {
-  const Triangle& corners =
-    this->Given.Corners.empty() ? points : this->Given.Corners[static_cast<std::size_t>(triangle)];
+  const Triangle& corners = this->CornersOf(points, triangle);
   Material feel;
   feel.IsPlain = false;
   const PropertyField& stiffness = this->Given.Fields[static_cast<int>(Property::Stiffness)];
@@ -253,14 +253,98 @@ Material SurfaceProperties::At(
   feel.Texture = this->Value(Property::Texture, corners, triangle, weights);
   if (this->Given.Image)
   {
-    feel.Texture =
-      std::clamp(feel.Texture + this->Grey(corners, weights), -LargestTexture, LargestTexture);
+    double rises[2];
+    feel.Texture = std::clamp(feel.Texture + this->Grey(corners, weights, rises),
+      -haptics::LargestTexture, haptics::LargestTexture);
   }
+  feel.LargestStiffness = this->LargestStiffness;
+  feel.LargestPlainShare = this->LargestPlainShare;
+  feel.LargestTexture = this->LargestTexture;
   feel.Profile = this->Given.Profile.get();
   return feel;
 }
 
-double SurfaceProperties::Grey(const Triangle& corners, const Corners& weights) const noexcept
+void SurfaceProperties::AddGradients(const Triangle& points, std::int32_t triangle,
+  const Corners& weights, const std::array<Vec3, 2>& rises, Material& material) const noexcept
+{
+  const Triangle& corners = this->CornersOf(points, triangle);
+  const auto add = [&rises](Vec3& gradient, const double slopes[2])
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      gradient[axis] += slopes[0] * rises[0][axis] + slopes[1] * rises[1][axis];
+    }
+  };
+  const auto varies = [this](Property property)
+  {
+    const PropertyField& field = this->Given.Fields[static_cast<int>(property)];
+    return !field.Values.empty() && !field.IsPerTriangle;
+  };
+  if (varies(Property::Stiffness))
+  {
+    const auto& values = this->Given.Fields[static_cast<int>(Property::Stiffness)].Values;
+    double own[3];
+    double plain[3];
+    for (int k = 0; k < 3; ++k)
+    {
+      const float value = values[corners[k]];
+      own[k] = std::isnan(value) ? 0.0 : value;
+      plain[k] = std::isnan(value) ? 1.0 : 0.0;
+    }
+    const double ofOwn[2] = { own[1] - own[0], own[2] - own[0] };
+    const double ofPlain[2] = { plain[1] - plain[0], plain[2] - plain[0] };
+    add(material.StiffnessGradient, ofOwn);
+    add(material.PlainShareGradient, ofPlain);
+  }
+  double texture = this->Value(Property::Texture, corners, triangle, weights);
+  double slopes[2] = { 0.0, 0.0 };
+  if (this->Given.Image)
+  {
+    texture += this->Grey(corners, weights, slopes);
+  }
+  if (std::abs(texture) > haptics::LargestTexture)
+  {
+    return; // cut off
+  }
+  if (varies(Property::Texture))
+  {
+    const auto& values = this->Given.Fields[static_cast<int>(Property::Texture)].Values;
+    slopes[0] += values[corners[1]] - values[corners[0]];
+    slopes[1] += values[corners[2]] - values[corners[0]];
+  }
+  add(material.TextureGradient, slopes);
+}
+
+void SurfaceProperties::FindLargest()
+{
+  const PropertyField& stiffness = this->Given[Property::Stiffness];
+  const PropertyField& texture = this->Given[Property::Texture];
+  const auto add = [this](double value)
+  {
+    std::isnan(value) ? this->LargestPlainShare = 1.0
+                      : this->LargestStiffness = std::max(this->LargestStiffness, value);
+  };
+  if (stiffness.Values.empty())
+  {
+    add(stiffness.Constant);
+  }
+  std::for_each(stiffness.Values.begin(), stiffness.Values.end(), add);
+  double largest = texture.Values.empty()
+    ? texture.Constant
+    : *std::max_element(texture.Values.begin(), texture.Values.end());
+  if (this->Given.Image)
+  {
+    largest +=
+      *std::max_element(this->Given.Image->Values.begin(), this->Given.Image->Values.end());
+  }
+  this->LargestTexture = std::clamp(largest, 0.0, haptics::LargestTexture);
+  const auto varies = [](const PropertyField& field)
+  { return !field.Values.empty() && !field.IsPerTriangle; };
+  this->HasSlopes = varies(stiffness) || varies(texture) || this->Given.Image;
+}
+
+double SurfaceProperties::Grey(
+  const Triangle& corners, const Corners& weights, double rises[2]) const noexcept
 {
   const TextureImage& image = *this->Given.Image;
   double place[2];
@@ -290,6 +374,17 @@ double SurfaceProperties::Grey(const Triangle& corners, const Corners& weights) 
   };
   const double low = grey(left, below) + across * (grey(right, below) - grey(left, below));
   const double high = grey(left, above) + across * (grey(right, above) - grey(left, above));
+  // Along the picture's axes, and from there along the triangle's sides.
+  const double alongX = image.Width *
+    ((1.0 - up) * (grey(right, below) - grey(left, below)) +
+      up * (grey(right, above) - grey(left, above)));
+  const double alongY = image.Height * (high - low);
+  const auto& first = image.Coordinates[corners[0]];
+  for (int k = 0; k < 2; ++k)
+  {
+    const auto& other = image.Coordinates[corners[k + 1]];
+    rises[k] = alongX * (other[0] - first[0]) + alongY * (other[1] - first[1]);
+  }
   return low + up * (high - low);
 }
 

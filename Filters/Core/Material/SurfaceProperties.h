@@ -89,8 +89,14 @@ public:
   using Corners = std::array<double, 3>; ///< weights of a triangle's corners, sum 1
 
   /// The properties at a place of a triangle of the surface, as if it were all of the contact.
-  /// `points`: the triangle's corners.
+  /// `points`: the triangle's corners. Without gradients.
   Material At(const Triangle& points, std::int32_t triangle, const Corners& weights) const noexcept;
+  /// Whether stiffness or texture varies over triangles.
+  bool HasGradients() const noexcept { return this->HasSlopes; }
+  /// Adds the gradients there to what At() gave. `rises`: the gradients of the weights of the
+  /// second and third corner; what comes out has their frame and unit.
+  void AddGradients(const Triangle& points, std::int32_t triangle, const Corners& weights,
+    const std::array<Vec3, 2>& rises, Material& material) const noexcept;
   bool IsShaded() const noexcept { return !this->Normals.empty(); }
   /// The interpolated normal there, surface frame, not of unit length. Only where IsShaded().
   Vec3 NormalAt(std::int32_t triangle, const Corners& weights) const noexcept;
@@ -100,9 +106,20 @@ private:
 
   double Value(Property property, const Triangle& corners, std::int32_t triangle,
     const Corners& weights) const noexcept;
-  double Grey(const Triangle& corners, const Corners& weights) const noexcept;
+  /// The image's grey there, and how it rises with the weights of the second and third corner.
+  double Grey(const Triangle& corners, const Corners& weights, double rises[2]) const noexcept;
+  void FindLargest();
+  const Triangle& CornersOf(const Triangle& points, std::int32_t triangle) const noexcept
+  {
+    return this->Given.Corners.empty() ? points
+                                       : this->Given.Corners[static_cast<std::size_t>(triangle)];
+  }
 
   PropertyValues Given;
+  bool HasSlopes = false;
+  double LargestStiffness = 0.0;
+  double LargestPlainShare = 0.0;
+  double LargestTexture = 0.0;
   std::vector<std::array<float, 3>> Normals; ///< three a triangle; empty without shading
 };
 }

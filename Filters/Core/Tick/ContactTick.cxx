@@ -43,6 +43,13 @@ const Contact& ContactTick::Take(const Contact& contact, const Vec3& devicePosit
     this->InDevice.Carried = {};
     this->InDevice.Material = haptics::Material();
   }
+  Material& material = this->InDevice.Material;
+  for (Vec3* const gradient :
+    { &material.StiffnessGradient, &material.PlainShareGradient, &material.TextureGradient })
+  {
+    // A metre of the hand's way is `Scale` world units.
+    *gradient = ToVec3(deviceToWorld.Scale * ToVector(deviceToWorld.DirectionToDevice(*gradient)));
+  }
   if (contact.Material.IsShaded)
   {
     this->InDevice.Shaded = deviceToWorld.VectorToDevice(contact.Shaded);
