@@ -132,8 +132,9 @@ void FacetBatch::Answer(std::int32_t count, const Question& question)
     const double toBox =
       SquaredGap(middle.x, lX, hX) + SquaredGap(middle.y, lY, hY) + SquaredGap(middle.z, lZ, hZ);
     // Bitwise, so that there is no branch. Of a plane that is not known nothing is concluded.
+    const bool isUnknown = !(condition < HUGE_VAL);
     const bool meets = (toBox <= radius * radius) &
-      (!(condition < HUGE_VAL) |
+      (isUnknown |
         ((height * height <= squaredReach) & (outAb * outAb <= squaredReach * ab) &
           (outBc * outBc <= squaredReach * bc) & (outCa * outCa <= squaredReach * ca)));
     const double squaredDistance = SquaredGap(position.x, lX, hX) + SquaredGap(position.y, lY, hY) +
