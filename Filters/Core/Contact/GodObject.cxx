@@ -387,6 +387,7 @@ bool GodObject::Continue(const GodObject& previous) noexcept
   this->Internal->StayInContact(*previous.Internal);
   if (!isSeamless)
   {
+    this->Internal->Land(*previous.Internal);
     this->Internal->Settle(*previous.Internal);
   }
   return isSeamless && this->Internal->FeelsAs(*previous.Internal);

@@ -39,6 +39,7 @@ public:
   void ListConstraints();
   void UpdateMaterial();
   void StayInContact(const Implementation& previous);
+  void Land(const Implementation& previous);
   void Settle(const Implementation& previous);
   bool IsOnSameSide(const Vector& other);
   bool FeelsAs(const Implementation& previous) const;

@@ -10,6 +10,8 @@ namespace
 /// A slide over a bent surface is made in so many steps at most: after each the cone stands on
 /// another facet.
 constexpr int LargestNumberOfSlides = 4;
+/// A cast that looks from far away ends at a waypoint, short of what it has found.
+constexpr int LargestNumberOfLandings = 3;
 }
 
 /// Moves as far as friction lets the HIP pull the god-object.
@@ -149,6 +151,50 @@ void GodObject::Implementation::StayInContact(const Implementation& previous)
   this->Active = kept;
   this->Cone = previous.Cone;
   this->Result.NumberOfConstraints = kept.SupportSize();
+  this->UpdateMaterial();
+}
+
+/// Where what held another god-object by friction has been made anew: stands on what is there now,
+/// straight below, so that friction goes on as it was.
+void GodObject::Implementation::Land(const Implementation& previous)
+{
+  const int supports = previous.Active.SupportSize();
+  if (previous.Result.Material.StaticFriction <= 0.0 || supports == 0 || this->IsSplit ||
+    this->Result.NumberOfConstraints == 0)
+  {
+    return;
+  }
+  const Vector hip = ToVector(this->Result.Hip) - this->Origin;
+  ActivePlanes planes = this->Active; // those that have pushed it, if any did
+  this->WaySize = 1;
+  for (int i = 0; i < supports && this->Active.IsEmpty(); ++i)
+  {
+    const Vector& normal = previous.Active.Support(i).Normal;
+    for (int cast = 0; cast < LargestNumberOfLandings; ++cast)
+    {
+      const double depth = glm::dot(normal, this->Position - hip);
+      const Vector goal = this->Position - std::max(depth, 0.0) * normal;
+      FacetHit hit;
+      if (!this->FindFirstHit(goal, planes, hit) || !hit)
+      {
+        break;
+      }
+      this->MoveTowards(this->Position + hit.Fraction * (goal - this->Position));
+      if (!hit.IsWaypoint)
+      {
+        planes.Add(hit.Plane);
+        break;
+      }
+    }
+  }
+  if (planes.IsEmpty())
+  {
+    return;
+  }
+  planes.Nearest(this->Position, hip);
+  this->Active = planes;
+  this->Cone = previous.Cone;
+  this->Result.NumberOfConstraints = planes.SupportSize();
   this->UpdateMaterial();
 }
 }
