@@ -25,6 +25,8 @@ namespace
 // Plain atomics: a signal handler may touch nothing else.
 std::atomic<std::uint32_t> Requests{ 0 };
 std::atomic<int> RunningServos{ 0 };
+std::atomic<int> Suspensions{ 0 }; // handlers that stop the process
+std::atomic<int> HeldServos{ 0 };  // servos that have taken their force away for that
 static_assert(std::atomic<std::uint32_t>::is_always_lock_free, "used in signal handlers");
 
 // The cycle that this thread runs; null in all but servo threads.
@@ -140,6 +142,72 @@ void HandleSignal(int signal, siginfo_t* information, void* context)
   errno = error;
 }
 
+/// Of a signal that nobody handles: ends the process as it would have.
+void HandleFatalSignal(int signal)
+{
+  const int error = errno;
+  StopAllServos();
+  Action standard{};
+  standard.sa_handler = SIG_DFL;
+  sigaction(signal, &standard, nullptr);
+  raise(signal); // as soon as this returns
+  errno = error;
+}
+
+/// Stops the process as it would have, and puts itself back when that goes on.
+void HandleStoppingSignal(int signal)
+{
+  const int error = errno;
+  Suspensions.fetch_add(1);
+  constexpr long Pause = 250000; // [ns]
+  for (int i = 0; i < 1000 && HeldServos.load() < RunningServos.load(); ++i)
+  {
+    Sleep(Pause);
+  }
+  Action standard{};
+  standard.sa_handler = SIG_DFL;
+  Action own{};
+  sigaction(signal, &standard, &own);
+  sigset_t signals;
+  sigset_t before;
+  sigemptyset(&signals);
+  sigaddset(&signals, signal);
+  raise(signal);
+  pthread_sigmask(SIG_UNBLOCK, &signals, &before); // stops here
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  sigaction(signal, &own, nullptr);
+  Suspensions.fetch_sub(1);
+  errno = error;
+}
+
+/// Only where the program leaves a signal to its default: its own handlers do what they did.
+void TakeUnhandledSignal(int signal, void (*handler)(int))
+{
+  Action present{};
+  sigaction(signal, nullptr, &present);
+  if ((present.sa_flags & SA_SIGINFO) == 0 && present.sa_handler == SIG_DFL)
+  {
+    Action ours{};
+    ours.sa_handler = handler;
+    ours.sa_flags = SA_RESTART;
+    sigemptyset(&ours.sa_mask);
+    sigaction(signal, &ours, nullptr);
+  }
+}
+
+void TakeUnhandledSignals()
+{
+  for (const int signal : FatalSignals)
+  {
+    TakeUnhandledSignal(signal, HandleFatalSignal);
+  }
+  TakeUnhandledSignal(SIGABRT, HandleFatalSignal);
+  for (const int signal : StoppingSignals)
+  {
+    TakeUnhandledSignal(signal, HandleStoppingSignal);
+  }
+}
+
 void TakeSignals()
 {
   const std::lock_guard<std::mutex> lock(Taking);
@@ -190,6 +258,7 @@ void HandleExit()
 void ForgetServos()
 {
   RunningServos.store(0, std::memory_order_release);
+  HeldServos.store(0);
 }
 #endif
 }
@@ -198,13 +267,16 @@ void EmergencyStop::Install()
 {
 #ifdef __unix__
   TakeSignals();
+  TakeUnhandledSignals();
 #endif
   if (std::get_terminate() != HandleTerminate)
   {
     PreviousTerminate = std::set_terminate(HandleTerminate);
   }
   static const bool isRegistered = std::atexit(HandleExit) == 0;
+  static const bool isRegisteredToo = std::at_quick_exit(HandleExit) == 0;
   (void)isRegistered;
+  (void)isRegisteredToo;
 #ifdef __unix__
   static const bool isTold = pthread_atfork(nullptr, nullptr, ForgetServos) == 0;
   (void)isTold;
@@ -250,5 +322,22 @@ EmergencyStop::~EmergencyStop()
 bool EmergencyStop::IsRequested() const noexcept
 {
   return Requests.load(std::memory_order_acquire) != this->RequestsBefore;
+}
+
+bool EmergencyStop::IsSuspended() noexcept
+{
+  return Suspensions.load(std::memory_order_acquire) > 0;
+}
+
+void EmergencyStop::Hold() const noexcept
+{
+  HeldServos.fetch_add(1, std::memory_order_acq_rel);
+  while (IsSuspended() && !this->IsRequested())
+  {
+#ifdef __unix__
+    Sleep(1000000); // [ns]
+#endif
+  }
+  HeldServos.fetch_sub(1, std::memory_order_acq_rel);
 }
 }

@@ -16,8 +16,15 @@ class ServoCycle;
 /// process waits until the devices have got that (DeviceChannel::Settle), at most a quarter of a
 /// second, and then goes on as it would have: whatever handled the signal before still does
 /// (Python's KeyboardInterrupt, for one), and where nothing did the process dies of it. A signal
-/// that is ignored stays so. SIGKILL and a crash of the machine cannot be caught: there a device
-/// must time out by itself.
+/// that is ignored stays so.
+///
+/// So it is at abort(), quick_exit() and the other signals whose default ends a process (SIGPIPE,
+/// SIGXFSZ, SIGALRM, SIGUSR1 ...), where the program has no handler of its own for them. Ctrl+Z
+/// (SIGTSTP), SIGTTIN and SIGTTOU take the force away before the process stops; when it goes on the
+/// force comes back softly.
+///
+/// SIGKILL, SIGSTOP, _exit(), a crash (SIGSEGV) and a machine that stops cannot be caught: there a
+/// device must time out by itself.
 ///
 /// A window ends in order at SIGINT (Ctrl-C): while something calls CountInterrupts() again and
 /// again, a process that has no handler of its own for SIGINT does not die of it. The next SIGINT
@@ -45,6 +52,10 @@ public:
   EmergencyStop& operator=(const EmergencyStop&) = delete;
   /// True once the process is about to end: ask for zero force and end.
   bool IsRequested() const noexcept;
+  /// True while the process is about to stop, or stopped: ask for zero force, then Hold().
+  static bool IsSuspended() noexcept;
+  /// The device has the zero: returns once the process goes on, or is about to end.
+  void Hold() const noexcept;
   ///@}
 
 private:

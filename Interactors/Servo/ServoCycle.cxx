@@ -126,6 +126,12 @@ bool ServoCycle::Tick(double time) noexcept
   return true;
 }
 
+void ServoCycle::Suspend() noexcept
+{
+  this->Channel->Write({});
+  this->Channel->Settle(SettleTime);
+}
+
 void ServoCycle::Resume() noexcept
 {
   this->Channel->Resume();

@@ -89,7 +89,9 @@ public:
   /// Runs a tick at `time` [s] since the start. False: a fault; no force is asked for, GetState()
   /// tells it, and the run is over.
   bool Tick(double time) noexcept;
-  /// Goes on after a watchdog has halted the device: the force grows softly from zero.
+  /// Asks for zero force, and waits until the device has got it, at most 30 ms.
+  void Suspend() noexcept;
+  /// Goes on after Suspend(), or a watchdog has halted the device: the force grows softly from zero.
   void Resume() noexcept;
   /// Ends the run: asks for zero force, becomes `state`, and waits until the device has got the
   /// zero, at most 30 ms; Tick() does so at a fault.

@@ -83,7 +83,7 @@ void ServoLoop::Run(const ServoTiming& timing) noexcept
   const EmergencyStop emergency(this->Cycle);
   OverrunBudget budget(timing.MissedShare, timing.Period);
   this->Halts.store(0, std::memory_order_relaxed);
-  const std::uint64_t start = MonotonicNow();
+  std::uint64_t start = MonotonicNow();
   std::uint64_t next = 0; // number of the deadline to wait for
   std::uint64_t last = start;
   while (true)
@@ -101,6 +101,18 @@ void ServoLoop::Run(const ServoTiming& timing) noexcept
     {
       this->Cycle.End(ServoState::Interrupted);
       return;
+    }
+    if (EmergencyStop::IsSuspended())
+    {
+      // The process stops: no force, and no time passes for what comes after.
+      this->Cycle.Suspend();
+      emergency.Hold();
+      this->Cycle.Resume();
+      const std::uint64_t passed = MonotonicNow() - now;
+      start += passed;
+      last += passed;
+      this->Guardian->Feed();
+      continue;
     }
     if (period > timing.StallLimit)
     {

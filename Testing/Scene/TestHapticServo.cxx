@@ -289,7 +289,7 @@ TEST_F(HapticServo, MovesTheHandThroughTheWorkspaceTransform)
   EXPECT_NEAR(back->GetElement(2, 2), 1000.0, 1e-9);
 }
 
-TEST_F(HapticServo, StartsAnewAtTheHipOnlyWhenTheWorkspaceTransformHasChanged)
+TEST_F(HapticServo, StaysOnItsSideSoftlyWhenTheWorkspaceTransformHasChanged)
 {
   ASSERT_EQ(this->Servo->Step(1000), 1000);
   vtkNew<vtkMatrix4x4> matrix;
@@ -299,7 +299,9 @@ TEST_F(HapticServo, StartsAnewAtTheHipOnlyWhenTheWorkspaceTransformHasChanged)
   matrix->SetElement(2, 3, -0.01);
   ASSERT_TRUE(this->Servo->SetWorkspaceTransform(matrix));
   ASSERT_EQ(this->Servo->Step(1), 1);
-  EXPECT_EQ(this->DeviceForce(), 0.0) << "12 mm below the plane, but no jump";
+  EXPECT_NEAR(this->DeviceForce(), 1.0 + 3.3 * 0.001 / 0.1, 2e-3) << "12 mm below the plane";
+  ASSERT_EQ(this->Servo->Step(100), 100);
+  EXPECT_NEAR(this->DeviceForce(), 3.3, 1e-9);
 }
 
 TEST_F(HapticServo, StartsAnewAtTheHipWhenAsked)

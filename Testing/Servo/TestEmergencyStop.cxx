@@ -29,6 +29,7 @@ struct SharedDevice
 {
   std::atomic<double> Force{ 0.0 };   ///< [N] upwards, what was written last
   std::atomic<double> Largest{ 0.0 }; ///< [N]
+  std::atomic<double> Growth{ 0.0 };  ///< the largest in a tick [N]
   std::atomic<bool> Throw{ false };
   std::atomic<bool> Survived{ false };
 };
@@ -56,6 +57,7 @@ public:
   }
   void Write(const std::array<double, 3>& force) noexcept override
   {
+    this->Device.Growth = std::max(this->Device.Growth.load(), force[2] - this->Device.Force);
     this->Device.Force = force[2];
     this->Device.Largest = std::max(this->Device.Largest.load(), force[2]);
   }
@@ -65,8 +67,9 @@ private:
 };
 
 /// Runs `end` in a child that is pressing with about 1 N; gives how the child ended.
+/// `parent` has to be through first, where there is one.
 template <typename Function>
-int EndWhilePressing(SharedDevice& device, Function end)
+int EndWhilePressing(SharedDevice& device, Function end, std::thread* parent = nullptr)
 {
   const pid_t child = fork();
   if (child == 0)
@@ -93,10 +96,16 @@ int EndWhilePressing(SharedDevice& device, Function end)
     end(device);
     _exit(98);
   }
+  if (parent)
+  {
+    parent->join();
+  }
   int status = 0;
   waitpid(child, &status, 0);
   return status;
 }
+
+SharedDevice* HandlersDevice = nullptr;
 
 class EmergencyStop : public ::testing::Test
 {
@@ -131,6 +140,108 @@ TEST_F(EmergencyStop, SignalsTakeTheForceAwayAndStillEndTheProcess)
   }
 }
 
+TEST_F(EmergencyStop, SoDoSignalsThatNobodyHandles)
+{
+  for (const int signal : { SIGPIPE, SIGXFSZ, SIGALRM, SIGUSR1, SIGUSR2, SIGVTALRM, SIGPROF,
+         SIGXCPU, SIGIO, SIGPWR, SIGABRT })
+  {
+    this->Device->Force = 0.0;
+    const int status = EndWhilePressing(*this->Device, [signal](SharedDevice&) { raise(signal); });
+    EXPECT_TRUE(WIFSIGNALED(status)) << signal;
+    EXPECT_EQ(WTERMSIG(status), signal);
+    EXPECT_EQ(this->Device->Force, 0.0) << signal;
+  }
+}
+
+TEST_F(EmergencyStop, ABrokenPipeDoesToo)
+{
+  const int status = EndWhilePressing(*this->Device,
+    [](SharedDevice&)
+    {
+      int ends[2];
+      if (pipe(ends) == 0 && close(ends[0]) == 0)
+      {
+        (void)!write(ends[1], "x", 1);
+      }
+    });
+  EXPECT_TRUE(WIFSIGNALED(status));
+  EXPECT_EQ(WTERMSIG(status), SIGPIPE);
+}
+
+TEST_F(EmergencyStop, AbortAndQuickExitDoToo)
+{
+  int status = EndWhilePressing(*this->Device, [](SharedDevice&) { std::abort(); });
+  EXPECT_TRUE(WIFSIGNALED(status));
+  EXPECT_EQ(WTERMSIG(status), SIGABRT);
+  EXPECT_EQ(this->Device->Force, 0.0);
+  this->Device->Force = 0.0;
+  status = EndWhilePressing(*this->Device, [](SharedDevice&) { std::quick_exit(4); });
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 4);
+}
+
+// Ctrl+Z: the hand has nothing while the process is stopped, and its force comes back softly.
+TEST_F(EmergencyStop, AStopTakesTheForceAwayUntilTheProcessGoesOn)
+{
+  for (const int signal : { SIGTSTP, SIGTTIN, SIGTTOU })
+  {
+    this->Device->Force = 0.0;
+    std::thread parent(
+      [&]
+      {
+        for (int times = 0; times < 2; ++times)
+        {
+          int status = 0;
+          const pid_t child = waitpid(-1, &status, WUNTRACED);
+          ASSERT_TRUE(WIFSTOPPED(status)) << signal;
+          EXPECT_EQ(WSTOPSIG(status), signal);
+          EXPECT_EQ(this->Device->Force, 0.0) << "while it is stopped";
+          std::this_thread::sleep_for(std::chrono::milliseconds(700)); // more than a stall may last
+          EXPECT_EQ(this->Device->Force, 0.0);
+          this->Device->Growth = 0.0;
+          kill(child, SIGCONT);
+        }
+      });
+    const int status = EndWhilePressing(
+      *this->Device,
+      [signal](SharedDevice& device)
+      {
+        setpgid(0, 0); // a job of its own: one without a parent in its terminal is not stopped
+        for (int times = 0; times < 2; ++times)
+        {
+          kill(getpid(), signal);
+          while (device.Force < 0.9)
+          {
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+          }
+        }
+        std::exit(5);
+      },
+      &parent);
+    EXPECT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 5);
+    EXPECT_GT(this->Device->Growth, 0.0);
+    EXPECT_LE(this->Device->Growth, 2.0 * 3.3 * 0.001 / 0.1 + 1e-9) << "of a late tick: two";
+  }
+}
+
+TEST_F(EmergencyStop, ASignalThatTheProgramHandlesLeavesTheForce)
+{
+  HandlersDevice = this->Device;
+  const auto previous =
+    std::signal(SIGUSR1, [](int) { HandlersDevice->Survived = HandlersDevice->Force > 0.9; });
+  const int status = EndWhilePressing(*this->Device,
+    [](SharedDevice& device)
+    {
+      raise(SIGUSR1);
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      std::exit(device.Survived && device.Force > 0.9 ? 6 : 97);
+    });
+  std::signal(SIGUSR1, previous);
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 6);
+}
+
 TEST_F(EmergencyStop, ASignalOfAnotherProcessDoesToo)
 {
   const int status = EndWhilePressing(*this->Device,
@@ -147,8 +258,6 @@ TEST_F(EmergencyStop, ASignalOfAnotherProcessDoesToo)
   EXPECT_TRUE(WIFSIGNALED(status));
   EXPECT_EQ(WTERMSIG(status), SIGTERM);
 }
-
-SharedDevice* HandlersDevice = nullptr;
 
 TEST_F(EmergencyStop, AHandlerThatWasThereBeforeIsStillCalled)
 {
@@ -169,8 +278,8 @@ TEST_F(EmergencyStop, AHandlerThatWasThereBeforeIsStillCalled)
 
 struct sigaction TakenOver;
 
-/// Puts a handler in the place of the servo's, as Jupyter does before each cell, and waits until the
-/// servo has taken the signal back.
+/// Puts a handler in the place of the servo's, as Jupyter does before each cell, and waits until
+/// the servo has taken the signal back.
 void SetHandlerWhilePressing(void (*handler)(int))
 {
   struct sigaction mine
@@ -192,8 +301,7 @@ TEST_F(EmergencyStop, AHandlerThatIsSetWhilePressingIsCalledWithTheForceGone)
   const int status = EndWhilePressing(*this->Device,
     [](SharedDevice&)
     {
-      SetHandlerWhilePressing(
-        [](int) { HandlersDevice->Survived = HandlersDevice->Force == 0.0; });
+      SetHandlerWhilePressing([](int) { HandlersDevice->Survived = HandlersDevice->Force == 0.0; });
       raise(SIGINT);
       _exit(7);
     });
