@@ -9,7 +9,9 @@ namespace haptics
 {
 namespace
 {
-/// Lips go on beside each other for so many times what they reach, or they are none.
+/// Two lips are seen in directions more apart than this.
+constexpr double LargestCosine = 0.5;
+/// Lips go on beside each other for so many times the gap's width, or they are none.
 constexpr double LengthOfGap = 16.0;
 
 Vector NearestOn(const std::array<Vector, 3>& corners, const Vector& x)
@@ -43,9 +45,9 @@ void NearestOfSegments(const Vector& a, const Vector& b, const Vector& p, const 
 }
 }
 
-void NarrowGap::Add(const Vector& a, const Vector& b, const Vector& c, double reach)
+void NarrowGap::Add(const Vector& a, const Vector& b, const Vector& c, double width)
 {
-  Lip lip{ { a, b, c }, a, Vector(0.0), reach };
+  Lip lip{ { a, b, c }, a, Vector(0.0), width };
   double least = HUGE_VAL;
   const auto take = [&](const Vector& onFacet, const Vector& onWay)
   {
@@ -69,7 +71,7 @@ void NarrowGap::Add(const Vector& a, const Vector& b, const Vector& c, double re
       lip.Corners[k], lip.Corners[(k + 1) % 3], this->From, this->To, onFacet, onWay);
     take(onFacet, onWay);
   }
-  if (least > reach * reach)
+  if (least > width * width)
   {
     return;
   }
@@ -85,7 +87,7 @@ void NarrowGap::Add(const Vector& a, const Vector& b, const Vector& c, double re
 /// `isOnEdge` is set where that point is on an edge.
 bool NarrowGap::StaysNear(const Lip& lip, const Lip& other, double width, bool& isOnEdge)
 {
-  const double length = LengthOfGap * lip.Reach;
+  const double length = LengthOfGap * lip.Width;
   for (int k = 0; k < 3; ++k)
   {
     const Vector& from = lip.Corners[k];
@@ -93,7 +95,7 @@ bool NarrowGap::StaysNear(const Lip& lip, const Lip& other, double width, bool& 
     const double edge = glm::length(to - from);
     const Vector along = edge > 0.0 ? (to - from) / edge : Vector(0.0);
     const double at = glm::dot(lip.Nearest - from, along);
-    const double beside = 0.0625 * lip.Reach;
+    const double beside = 0.0625 * lip.Width;
     if (!(edge > 0.0) ||
       SquaredLength(lip.Nearest - (from + std::clamp(at, 0.0, edge) * along)) > beside * beside)
     {
@@ -121,12 +123,13 @@ bool NarrowGap::IsFound() const
     {
       const Lip& a = this->Lips[i];
       const Lip& b = this->Lips[j];
-      const double width = std::min(a.Reach, b.Reach);
+      const double width = std::min(a.Width, b.Width);
       const auto isShared = [&b](const Vector& corner)
       { return std::find(b.Corners.begin(), b.Corners.end(), corner) != b.Corners.end(); };
       const bool areNeighbours = std::count_if(a.Corners.begin(), a.Corners.end(), isShared) > 1;
-      if (areNeighbours || glm::dot(a.Offset, b.Offset) >= 0.0 ||
-        glm::length(a.Offset) + glm::length(b.Offset) > width)
+      if (areNeighbours || SquaredLength(a.Nearest - b.Nearest) > width * width ||
+        glm::dot(a.Offset, b.Offset) >
+          LargestCosine * glm::length(a.Offset) * glm::length(b.Offset))
       {
         continue;
       }

@@ -9,8 +9,8 @@ namespace haptics
 {
 /// @brief Whether a straight way squeezes through a gap that facets reach over.
 ///
-/// A gap has two lips: facets on either side of the way that are nearer to each other than they
-/// reach, there and along one of their edges. Facets that part at an angle from a common corner are
+/// A gap has two lips: facets on either side of the way that are near each other, there and along
+/// one of their edges. Facets that part at an angle from a common corner are
 /// no lips, however near the corner the way passes: theirs is no gap to close.
 class NarrowGap
 {
@@ -21,8 +21,8 @@ public:
   {
   }
 
-  /// A facet that may be near the way, and how far it reaches.
-  void Add(const Vector& a, const Vector& b, const Vector& c, double reach);
+  /// A facet that may be near the way; a gap beside it is not wider than `width`.
+  void Add(const Vector& a, const Vector& b, const Vector& c, double width);
   /// Whether there is a gap; also where there are too many facets to tell.
   bool IsFound() const;
 
@@ -32,7 +32,7 @@ private:
     std::array<Vector, 3> Corners;
     Vector Nearest{ 0 }; ///< of its points to the way
     Vector Offset{ 0 };  ///< to there from the way
-    double Reach = 0.0;
+    double Width = 0.0;
   };
   static bool StaysNear(const Lip& lip, const Lip& other, double width, bool& isOnEdge);
 

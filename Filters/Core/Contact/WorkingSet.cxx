@@ -609,12 +609,12 @@ bool WorkingSet::IsOpen(const Vector& goal, WorkBudget& budget, NarrowGap& gap)
   }
   for (std::int32_t i = 0; i < this->Count; ++i)
   {
-    const double reach = GrowthOverGaps * this->Clearance[i];
-    if (this->MeetsBox(i, to, 2.0 * reach))
+    const double width = WidthOfGaps * this->Clearance[i];
+    if (this->MeetsBox(i, to, 2.0 * width))
     {
       const auto [a, b, c] = this->CornersOf(this->Triangles[i]);
       gap.Add(this->ToSurface.PointToScene(a), this->ToSurface.PointToScene(b),
-        this->ToSurface.PointToScene(c), reach);
+        this->ToSurface.PointToScene(c), width);
     }
   }
   return true;

@@ -83,6 +83,9 @@ private:
 /// A facet is met a little beyond its edges, by so many clearances, where an edge is no other
 /// facet's: closes gaps as wide.
 constexpr double GrowthOverGaps = 4.0;
+/// Where several facets come together with gaps between them, there is a hole in which the next
+/// facets may be so many clearances apart.
+constexpr double WidthOfGaps = 1.5 * GrowthOverGaps;
 /// Beyond an edge that facets share there is no gap: only rounding to cover. It has to be less than
 /// one clearance: a god-object that comes around a sharp edge passes behind the next facet's plane
 /// at one clearance's height, and must not be held there.
@@ -175,7 +178,7 @@ inline Coverage CoverageOf(const Vector& normal, const Vector& a, const Vector& 
 /// The widest that any facet of a surface reaches beyond itself.
 inline double LargestGrowth(double clearance, double longestEdge)
 {
-  return (GrowthOverGaps + 1.0) * std::max(clearance, 1e-6 * longestEdge);
+  return (WidthOfGaps + 1.0) * std::max(clearance, 1e-6 * longestEdge);
 }
 }
 
