@@ -72,7 +72,34 @@ struct Contact
 /// - the end of one piece is, bit for bit, the start of the next.
 /// So a closed oriented surface is never entered from its front, and no triangle of any soup is
 /// crossed where both sides are touched. Condition: a gap between facets that do not share corners
-/// is no wider than SurfaceOptions::CrackWidth.
+/// is no wider than SurfaceOptions::CrackWidth. A motion exactly in a triangle's plane passes
+/// through neither of its sides and crosses nothing: so a sheet that is met edge on, to the last
+/// bit, does not hold, and a point that comes to rest in a sheet may leave it to either side.
+///
+/// **Nothing holds where nothing is**, the other half: if no facet, from a side that can be touched,
+/// meets the straight way from the god-object to the HIP, nor a cone of a thousandth around it, the
+/// god-object comes to within 8 clearances of the HIP (of the facets that hold it; a clearance is
+/// TriangleSurface::Clearance(), or up to a millionth of the longest edge of a triangle that even
+/// twice the digits of a double do not tell from a line), and where it is farther from it, exactly
+/// there: in that update, or, of a triangle thinner than its clearance that the update has just
+/// met, in the next. It holds because
+/// - an update ends with a look along that way: what exact predicates find it free of facets is
+///   gone in one certified piece, whatever planes hold the god-object,
+/// - the look is left out only where a facet is known to be in the way: the god-object is in front
+///   of it for certain, and the way to the HIP, behind it, goes through it at a distance from its
+///   edges that is more than rounding.
+/// Conditions: the way does not squeeze through a gap that is to be closed (class NarrowGap: lips
+/// that run beside each other at no more than 6 clearances; slots from ten clearances on are open);
+/// the god-object is not Overloaded or Squeezed, not farther from a surface than eight times its
+/// radius, and the HIP is not that of a surface that is just being swept by a deformation. The cone
+/// is more than the proof needs: it leaves room for the frame's rounding.
+///
+/// What is *not* in plain view is reached around edges as far as each step shortens the way to the
+/// HIP. That no plane stops it that is not a facet's there: a facet reaches beyond an edge that it
+/// shares by a quarter of a clearance only, beyond an open edge or corner by 4 clearances, and there
+/// it does not hold what goes along a plane that it lies under (WorkingSet::Covers). Which of the
+/// facets that are met at once counts is decided by more than rounding, so that it is the same at
+/// every scale, place and frame.
 ///
 /// **Surfaces that move** see the god-object move, and its way in their own frame is certified like
 /// any other: from the point where they last had it, bit for bit, to the next. So nothing passes

@@ -492,9 +492,9 @@ bool WorkingSet::MeetsAny(const Vector& to)
   }
   for (std::int32_t i = 0; i < this->Count; ++i)
   {
-    const bool mayBeBefore = this->Distance[i] >= -this->Error[i];
-    const bool mayEndBehind = this->TargetDistance[i] <= this->Error[i];
-    if (mayBeBefore && mayEndBehind && this->MeetsBox(i, to, 0.0) &&
+    // Asked first whether it may end behind: few motions do.
+    if (this->TargetDistance[i] <= this->Error[i] && this->Distance[i] >= -this->Error[i] &&
+      this->MeetsBox(i, to, 0.0) &&
       this->Touches(i, this->Position, to))
     {
       return true;
@@ -546,25 +546,25 @@ void WorkingSet::Move()
   }
 }
 
+/// `nearest` is in the local frame.
 Coverage WorkingSet::CoverageAt(
   const ActivePlane& plane, const Vector& position, Vector& nearest) const
 {
   const Vector normal =
     this->ToSurface.VectorToLocal(plane.IsFlipped ? -plane.Normal : plane.Normal);
-  const Coverage coverage = this->CoverageAt(plane.Facet.Triangle, normal, plane.Clearance, 0.0,
+  return this->CoverageAt(plane.Facet.Triangle, normal, plane.Clearance, 0.0,
     this->ToSurface.PointToLocal(position), nearest);
-  nearest = this->ToSurface.PointToScene(nearest);
-  return coverage;
 }
 
 bool WorkingSet::Covers(const ActivePlane& plane, const Vector& position,
   const ActivePlanes& planes, bool& isInside) const
 {
-  Vector nearest(0.0);
+  Vector nearest;
   const Coverage coverage = this->CoverageAt(plane, position, nearest);
   isInside = coverage == Coverage::Inside;
   return coverage >= Coverage::Own ||
-    (coverage == Coverage::Reach && !planes.PassesOver(nearest, plane.Facet));
+    (coverage == Coverage::Reach &&
+      !planes.PassesOver(this->ToSurface.PointToScene(nearest), plane.Facet));
 }
 
 bool WorkingSet::StandsInWay(const ActivePlane& plane, const Vector& goal, bool isNew) const
@@ -623,8 +623,9 @@ bool WorkingSet::IsOpen(const Vector& goal, WorkBudget& budget, NarrowGap& gap)
 bool WorkingSet::IsPassedOver(
   const ActivePlane& plane, const Vector& position, const ActivePlane& other) const
 {
-  Vector nearest(0.0);
-  return this->CoverageAt(plane, position, nearest) == Coverage::Reach && other.PassesOver(nearest);
+  Vector nearest;
+  return this->CoverageAt(plane, position, nearest) == Coverage::Reach &&
+    other.PassesOver(this->ToSurface.PointToScene(nearest));
 }
 
 std::array<Vec3, 2> WorkingSet::WeightGradients(std::int32_t triangle) const
