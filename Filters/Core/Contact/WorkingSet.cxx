@@ -373,9 +373,12 @@ FacetHit WorkingSet::Scan(const Vector& to, const ActivePlanes& active)
   int count = 0;
   double first = HUGE_VAL;
   double last = HUGE_VAL;
-  for (std::int32_t i = 0; i < this->Count; ++i)
+  const double* const after = this->TargetDistance.data();
+  const double* const limit = this->Limit.data();
+  const std::int32_t gathered = this->Count;
+  for (std::int32_t i = 0; i < gathered; ++i)
   {
-    if (this->TargetDistance[i] >= this->Limit[i])
+    if (after[i] >= limit[i])
     {
       continue;
     }
@@ -490,11 +493,14 @@ bool WorkingSet::MeetsAny(const Vector& to)
   {
     this->MeasureTarget(to);
   }
-  for (std::int32_t i = 0; i < this->Count; ++i)
+  const double* const before = this->Distance.data();
+  const double* const after = this->TargetDistance.data();
+  const double* const error = this->Error.data();
+  const std::int32_t count = this->Count;
+  for (std::int32_t i = 0; i < count; ++i)
   {
     // Asked first whether it may end behind: few motions do.
-    if (this->TargetDistance[i] <= this->Error[i] && this->Distance[i] >= -this->Error[i] &&
-      this->MeetsBox(i, to, 0.0) &&
+    if (after[i] <= error[i] && before[i] >= -error[i] && this->MeetsBox(i, to, 0.0) &&
       this->Touches(i, this->Position, to))
     {
       return true;
