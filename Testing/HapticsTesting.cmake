@@ -101,6 +101,20 @@ function (haptics_add_consumer_test)
         "-DCMAKE_CXX_FLAGS=${CMAKE_CXX_FLAGS}"
         "-DPython3_EXECUTABLE=${Python3_EXECUTABLE}"
       --test-command consumer)
+  add_test(NAME Consumer.Neighbours
+    COMMAND "${CMAKE_CTEST_COMMAND}"
+      --build-and-test "${CMAKE_CURRENT_SOURCE_DIR}/Consumer/Neighbours"
+                       "${CMAKE_BINARY_DIR}/Testing/Consumer/neighbours"
+      --build-generator "${CMAKE_GENERATOR}"
+      --build-options
+        "-DVTKHaptics_ROOT=${prefix}"
+        "-DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE}"
+        "-DCMAKE_CXX_FLAGS=${CMAKE_CXX_FLAGS}"
+        "-DPython3_EXECUTABLE=${Python3_EXECUTABLE}"
+      --test-command neighbours)
+  set_tests_properties(Consumer.Neighbours PROPERTIES
+    FIXTURES_REQUIRED haptics_install
+    LABELS            "haptics")
   add_test(NAME Consumer.DeviceTemplate
     COMMAND "${CMAKE_CTEST_COMMAND}"
       --build-and-test "${prefix}/${CMAKE_INSTALL_DATAROOTDIR}/vtkhaptics/device"
