@@ -30,6 +30,7 @@ matters to how a surface feels, and never to safety: a position that comes late 
 
 import threading
 import time
+from typing import Any, Optional
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk
@@ -50,24 +51,24 @@ class HapticDevice(vtkSharedHapticDevice):
     """
 
     rate = 1000.0  # [Hz]
-    failure = None  # what connect() or exchange() raised
+    failure: Optional[BaseException] = None  # what connect() or exchange() raised
 
-    def __init__(self):
+    def __init__(self) -> None:
         super().__init__()
         self._thread = None
         self._end = threading.Event()
         self.AddObserver("StateChangedEvent", _on_state)
 
-    def connect(self):
+    def connect(self) -> None:
         """Called when the device opens, before the first exchange(). GUI thread."""
 
-    def exchange(self, force):
+    def exchange(self, force: np.ndarray) -> Any:
         """Gives the hand a force, (3,) [N], and returns where it is, (3,) [m], or that and its
         buttons (bit i is button i): device frame. In the device's thread, `rate` times a
         second; the first time in the GUI thread, with no force."""
         raise NotImplementedError(f"{type(self).__name__} has no exchange(force)")
 
-    def disconnect(self):
+    def disconnect(self) -> None:
         """Called when the device closes, after the last exchange(). GUI thread."""
 
     def _start(self):
@@ -107,7 +108,7 @@ class HapticDevice(vtkSharedHapticDevice):
             self.disconnect()
 
 
-def share(device, memory):
+def share(device: vtkSharedHapticDevice, memory: Any) -> np.ndarray:
     """Has a vtkSharedHapticDevice use a float64 array of 16 values, or a buffer of 128 bytes, which
     another process may share. Before Open(). Returns the array."""
     values = SharedHand(memory).values

@@ -1,6 +1,7 @@
 """Takes a surface as researchers have it, and makes a vtkPolyData of it."""
 
 import os
+from typing import Any
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
@@ -9,7 +10,7 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkCompositeDataSet, vtk
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm, vtkAlgorithmOutput
 
 
-def polydata(surface):
+def polydata(surface: Any) -> vtkPolyData:
     """The vtkPolyData of a surface, in the surface's own length unit.
 
     `surface` is one of

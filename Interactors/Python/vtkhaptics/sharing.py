@@ -5,6 +5,7 @@ haptics::SharedValue (Devices/Shared/SharedExchange.h), and does not change.
 """
 
 import time
+from typing import Any
 
 import numpy as np
 
@@ -21,7 +22,7 @@ class SharedHand:
     multiprocessing.shared_memory.SharedMemory, an mmap). For one thread.
     """
 
-    def __init__(self, memory):
+    def __init__(self, memory: Any) -> None:
         if not isinstance(memory, np.ndarray):
             memory = np.frombuffer(memory, np.float64, SIZE)
         if memory.dtype != np.float64 or memory.shape != (SIZE,) or not memory.flags.c_contiguous:
@@ -33,7 +34,7 @@ class SharedHand:
         self._sequence = -1.0
         self._renewed = time.monotonic()
 
-    def exchange(self, position, buttons=0):
+    def exchange(self, position: Any, buttons: int = 0) -> np.ndarray:
         """Tells where the hand is [m], device frame, and the buttons that it holds (bit i is button
         i); returns the force to give it [N], a new (3,) array. Zero where no servo renews it."""
         values = self.values
@@ -47,11 +48,11 @@ class SharedHand:
         values[HAND_SEQUENCE] = sequence + 2
         return self.force()
 
-    def lose(self):
+    def lose(self) -> None:
         """Tells that the device is lost: the servo ends with zero force at its next tick."""
         self.values[HAND_LOST] = 1
 
-    def force(self):
+    def force(self) -> np.ndarray:
         """The force [N], a new (3,) array; zero where no servo has renewed it for 20 ms."""
         values = self.values
         for _ in range(4):

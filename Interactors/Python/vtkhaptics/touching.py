@@ -1,5 +1,7 @@
 """Opens a window with surfaces of a program's own, to touch them."""
 
+from typing import Any, Optional, Tuple
+
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow, vtkRenderWindowInteractor
@@ -10,7 +12,13 @@ from .plotting import enable
 from .tracing import Trace
 
 
-def touch(*surfaces, device=None, stiffness=500.0, scalars=None, size=(1200, 800)):
+def touch(
+    *surfaces: Any,
+    device: Any = None,
+    stiffness: float = 500.0,
+    scalars: Optional[str] = None,
+    size: Tuple[int, int] = (1200, 800),
+) -> Trace:
     """Opens a window with surfaces to touch, by the mouse or by another device, until it is closed.
 
     Parameters

@@ -2,6 +2,7 @@
 
 import csv
 import os
+from typing import Any, Dict, List, Union
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
@@ -15,16 +16,16 @@ SIDES = {"automatic": 2, "front": 0, "both": 1}
 
 
 def trace(
-    surface,
-    path,
+    surface: Any,
+    path: Any,
     *,
-    time=None,
-    stiffness=500.0,
-    maximum_force=3.3,
-    scale=1.0,
-    period=0.001,
-    side="automatic",
-):
+    time: Any = None,
+    stiffness: float = 500.0,
+    maximum_force: float = 3.3,
+    scale: float = 1.0,
+    period: float = 0.001,
+    side: str = "automatic",
+) -> "Trace":
     """What a hand would feel that follows a path over a surface, without a device.
 
     Parameters
@@ -119,20 +120,20 @@ class Trace:
     "world" is the surface's frame and unit, and the axes of forces are the world's.
     """
 
-    def __init__(self, polydata, period=0.001):
+    def __init__(self, polydata: Any, period: float = 0.001) -> None:
         self.polydata = polydata
         self._period = period
 
-    def __len__(self):
+    def __len__(self) -> int:
         return self.polydata.GetNumberOfPoints()
 
     def __repr__(self):
         return f"<vtkhaptics.Trace of {len(self)} ticks: {', '.join(self.names)}>"
 
-    def __contains__(self, name):
+    def __contains__(self, name: str) -> bool:
         return bool(self.polydata.GetPointData().HasArray(name))
 
-    def __getitem__(self, name):
+    def __getitem__(self, name: str) -> np.ndarray:
         """The array of a VTK name, (n,) or (n, components). Raises KeyError."""
         array = self.polydata.GetPointData().GetArray(name)
         if array is None:
@@ -140,69 +141,69 @@ class Trace:
         return vtk_to_numpy(array)
 
     @property
-    def names(self):
+    def names(self) -> List[str]:
         """The names of the arrays of numbers."""
         data = self.polydata.GetPointData()
         return [data.GetArrayName(i) for i in range(data.GetNumberOfArrays()) if data.GetArray(i)]
 
     @property
-    def time(self):
+    def time(self) -> np.ndarray:
         """When each tick was [s], (n,)."""
         return self["Time"] if "Time" in self else self._period * np.arange(len(self))
 
     @property
-    def hip(self):
+    def hip(self) -> np.ndarray:
         """Haptic interface point: where the hand was [world], (n, 3)."""
         return self["HapticInterfacePoint"]
 
     @property
-    def god_object(self):
+    def god_object(self) -> np.ndarray:
         """The point that stays outside of the surface [world], (n, 3)."""
         if not len(self):
             return np.empty((0, 3))
         return vtk_to_numpy(self.polydata.GetPoints().GetData())
 
     @property
-    def force(self):
+    def force(self) -> np.ndarray:
         """On the hand [N], (n, 3)."""
         return self["Force"]
 
     @property
-    def magnitude(self):
+    def magnitude(self) -> np.ndarray:
         """Length of the force [N], (n,). Computed at each call."""
         return np.linalg.norm(self.force, axis=1)
 
     @property
-    def touching(self):
+    def touching(self) -> np.ndarray:
         """Whether the surface holds the god-object, (n,) of bool. Computed at each call."""
         return self["ActiveConstraints"] > 0
 
     @property
-    def constraints(self):
+    def constraints(self) -> np.ndarray:
         """Planes that hold the god-object, 0 in free space to 3, (n,)."""
         return self["ActiveConstraints"]
 
     @property
-    def cell(self):
+    def cell(self) -> np.ndarray:
         """Id of the cell touched, of the surface as it was given; -1 in free space, (n,)."""
         return self["OriginalCellId"]
 
     @property
-    def penetration(self):
+    def penetration(self) -> np.ndarray:
         """Distance from HIP to god-object [world], (n,)."""
         return self["Penetration"]
 
     @property
-    def stiffness(self):
+    def stiffness(self) -> np.ndarray:
         """In effect [N/m], (n,)."""
         return self["Stiffness"]
 
     @property
-    def energy(self):
+    def energy(self) -> np.ndarray:
         """What the hand has put in and not got out [J], (n,)."""
         return self["Energy"]
 
-    def columns(self):
+    def columns(self) -> Dict[str, np.ndarray]:
         """The arrays by column name, each (n,): `Time` first, then `GodObject_X`, `_Y`, `_Z` and so
         on for vectors; components that are not three are numbered from 0."""
         columns = {"Time": self.time}
@@ -214,7 +215,7 @@ class Trace:
                 columns.update((f"{name}_{axis}", values[:, i]) for i, axis in enumerate(axes))
         return columns
 
-    def to_dataframe(self):
+    def to_dataframe(self) -> Any:
         """A pandas.DataFrame with :meth:`columns`, a row a tick. Raises ImportError without pandas."""
         try:
             import pandas
@@ -225,7 +226,7 @@ class Trace:
             ) from error
         return pandas.DataFrame(self.columns())
 
-    def to_csv(self, path):
+    def to_csv(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """Writes :meth:`columns` as CSV, a line with the names first; numbers in full precision.
         Replaces the file only once all is written."""
         path = os.fspath(path)
