@@ -28,6 +28,7 @@ PACKAGE = """from typing import List
 
 from .device import HapticDevice as HapticDevice, share as share
 from .errors import HapticsError as HapticsError, HapticsWarning as HapticsWarning
+from .inline import picture_of as picture_of
 from .meshes import polydata as polydata
 from .plotting import enable as enable
 from .sharing import SharedHand as SharedHand

@@ -29,11 +29,14 @@ from vtkmodules.vtkRenderingCore import (
 )
 
 from vtkhaptics import vtkGodObjectFilter, vtkGodObjectTrace, vtkHapticProperties
+from vtkhaptics.display import ensure_script_display
 from vtkhaptics.stroke import View
 
 POINTS = vtkDataObject.FIELD_ASSOCIATION_POINTS
 
 source = os.environ.get("HAPTICS_SOURCE_DIR", ".")
+if len(sys.argv) > 2:
+    ensure_script_display()  # it draws
 name = sys.argv[1] if len(sys.argv) > 1 else os.path.join(source, "build/surfaces/pial.vtp")
 if not os.path.exists(name):
     print(f"there is no {name}: get it with `python3 Data/get_surfaces.py pial`")

@@ -15,8 +15,10 @@ from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkFiltersCore import vtkFlyingEdges3D
 
 from vtkhaptics import vtkHapticScene, vtkHapticView, vtkSimulatedHapticDevice
+from vtkhaptics.display import ensure_script_display
 
 if len(sys.argv) > 1:
+    ensure_script_display()  # it draws
     try:
         from PIL import Image
     except ImportError:

@@ -10,7 +10,10 @@ from vtkmodules.vtkFiltersSources import vtkParametricFunctionSource
 from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow
 
 from vtkhaptics import vtkHapticScene, vtkHapticView, vtkSimulatedHapticDevice
+from vtkhaptics.display import ensure_script_display
 from vtkhaptics.picture import add_lights, save_window, surface_actor
+
+ensure_script_display()  # it draws
 
 ring = vtkParametricTorus()
 ring.SetRingRadius(0.05)  # [m]: a larger one would make the hand faster than the servo lets it be

@@ -14,6 +14,10 @@ a tuple (vertices, faces). With a mouse, in a window::
     vtkhaptics.touch("part.stl")                          # or any other surface
     vtkhaptics.enable(plotter)                            # what a PyVista or VTK plot shows
 
+In a notebook, or without a display::
+
+    vtkhaptics.picture_of("part.stl", t)                  # drawn inline; .save("part.png")
+
 With a device, a thousand times a second::
 
     scene = vtkhaptics.vtkHapticScene()
@@ -47,6 +51,7 @@ from .errors import HapticsError, HapticsWarning
 globals().update(CLASSES)
 
 from .device import HapticDevice, share
+from .inline import picture_of
 from .meshes import polydata
 from .plotting import enable
 from .sharing import SharedHand
@@ -60,6 +65,7 @@ __all__ = [
     "SharedHand",
     "Trace",
     "enable",
+    "picture_of",
     "polydata",
     "share",
     "touch",

@@ -16,9 +16,19 @@ def needs_display():
     return vtkRenderWindow().IsA("vtkXOpenGLRenderWindow") and not os.environ.get("DISPLAY")
 
 
+def ensure_script_display():
+    """For a script that draws: where this VTK can only draw with an X server and there is none, runs
+    it again under a virtual one, or ends it with what to install."""
+    try:
+        ensure_display(None, sys.argv)
+    except DisplayError as error:
+        sys.exit(f"{os.path.basename(sys.argv[0])}: {error}")
+
+
 def ensure_display(module, arguments):
     """Where VTK can only draw with an X server and there is none, runs the module again under a
-    virtual one, and does not return. Raises DisplayError where there is none to be had."""
+    virtual one, and does not return; where `module` is None the script that `arguments` begin with.
+    Raises DisplayError where there is none to be had."""
     if not needs_display():
         return
     xvfb = shutil.which("xvfb-run")
@@ -27,4 +37,5 @@ def ensure_display(module, arguments):
             "this VTK needs an X server to draw, and DISPLAY is not set. "
             "Install xvfb (Debian: apt-get install xvfb xauth) and try again."
         )
-    os.execv(xvfb, [xvfb, "-a", sys.executable, "-m", module, *arguments])
+    program = ["-m", module] if module else []
+    os.execv(xvfb, [xvfb, "-a", sys.executable, *program, *arguments])

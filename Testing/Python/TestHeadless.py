@@ -1,0 +1,73 @@
+"""Without a display everything runs, draws off screen, or says what is missing: nothing aborts."""
+
+import os
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+import vtkhaptics
+from vtkhaptics.display import needs_display
+
+EXAMPLES = os.path.join(os.environ["HAPTICS_SOURCE_DIR"], "Interactors", "Python", "examples")
+HEADLESS = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
+
+
+def size_of(png):
+    """Width and height of a PNG picture."""
+    assert png[:8] == b"\x89PNG\r\n\x1a\n", png[:8]
+    return struct.unpack(">II", png[16:24])
+
+
+class Headless(unittest.TestCase):
+    def setUp(self):
+        before = dict(os.environ)
+        self.addCleanup(lambda: (os.environ.clear(), os.environ.update(before)))
+        for name in ("DISPLAY", "WAYLAND_DISPLAY"):
+            os.environ.pop(name, None)
+
+    def test_a_picture_for_a_notebook(self):
+        x, y = (0.04 * axis for axis in np.meshgrid([-1.0, 1.0], [-1.0, 1.0]))
+        table = (np.stack([x.ravel(), y.ravel(), np.zeros(4)], axis=1), [[0, 1, 3, 2]])
+        path = np.linspace([-0.02, 0.0, 0.004], [0.02, 0.0, -0.002], 2500)
+        t = vtkhaptics.trace(table, path)
+        picture = vtkhaptics.picture_of(table, t, size=(320, 240))
+        self.assertEqual(size_of(picture._repr_png_()), (320, 240))
+        plain = vtkhaptics.picture_of(table, size=(320, 240))
+        self.assertNotEqual(picture.png, plain.png)
+        with tempfile.TemporaryDirectory() as folder:
+            picture.save(os.path.join(folder, "table.png"))
+            self.assertEqual(os.path.getsize(os.path.join(folder, "table.png")), len(picture.png))
+        with self.assertRaisesRegex(vtkhaptics.HapticsError, "no array 'Nothing'"):
+            vtkhaptics.picture_of(table, scalars="Nothing")
+
+    def run_example(self, name, *arguments, **environment):
+        return subprocess.run(
+            [sys.executable, os.path.join(EXAMPLES, name), *arguments],
+            env={**HEADLESS, **environment}, capture_output=True, text=True, timeout=300,
+        )
+
+    def test_an_example_draws(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "stroke.png")
+            done = self.run_example("scripted_stroke.py", file)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            with open(file, "rb") as png:
+                size_of(png.read())
+
+    def test_what_is_missing_is_said(self):
+        if not needs_display():
+            self.skipTest("this VTK draws without a display")
+        folder = os.path.dirname(sys.executable)
+        if os.path.exists(os.path.join(folder, "xvfb-run")):
+            done = self.run_example("scripted_stroke.py", PATH="/nonexistent")
+        else:
+            done = self.run_example("scripted_stroke.py", PATH=folder)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("apt-get install xvfb", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
