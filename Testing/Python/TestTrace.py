@@ -8,6 +8,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import warnings
 
 import numpy as np
 import vtkhaptics
@@ -206,6 +207,14 @@ class Results(unittest.TestCase):
         self.assertFalse(
             vtkhaptics.trace((VERTICES, TRIANGLES), behind, side="front").touching.any()
         )
+
+    def test_a_surface_in_millimetres_is_noticed(self):
+        with self.assertWarnsRegex(vtkhaptics.HapticsWarning, "1000 units across.*scale=0.001"):
+            vtkhaptics.trace((1000 * VERTICES, TRIANGLES), 1000 * PATH)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            vtkhaptics.trace((1000 * VERTICES, TRIANGLES), 1000 * PATH, scale=1.0)
+            vtkhaptics.trace((VERTICES, TRIANGLES), PATH)
 
     def test_csv(self):
         with tempfile.TemporaryDirectory() as folder:

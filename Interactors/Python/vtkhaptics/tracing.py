@@ -2,7 +2,8 @@
 
 import csv
 import os
-from typing import Any, Dict, List, Union
+import warnings
+from typing import Any, Dict, List, Optional, Union
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
@@ -10,8 +11,10 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm, vtkAlgorithmOutput
 
 from .classes import CLASSES
+from .errors import HapticsWarning
 from .meshes import points, polydata
 
+LARGEST = 2.0  # [m]: what is larger is not meant to be in metres
 SIDES = {"automatic": 2, "front": 0, "both": 1}
 
 
@@ -22,7 +25,7 @@ def trace(
     time: Any = None,
     stiffness: float = 500.0,
     maximum_force: float = 3.3,
-    scale: float = 1.0,
+    scale: Optional[float] = None,
     period: float = 0.001,
     side: str = "automatic",
 ) -> "Trace":
@@ -45,6 +48,7 @@ def trace(
         Longer forces are shortened to this [N].
     scale : float
         Metres in the hand for one unit of the surface [m]: 0.001 for a surface in millimetres.
+        Default 1, with a HapticsWarning where that makes the surface larger than 2 m.
     period : float
         From one position to the next [s].
     side : "automatic", "front" or "both"
@@ -61,12 +65,13 @@ def trace(
     >>> t = vtkhaptics.trace((vertices, faces), path)
     >>> t.force                             # (n, 3) [N]
     """
+    given = scale is not None
     if side not in SIDES:
         raise ValueError(f"side is {side!r}; give one of {', '.join(map(repr, SIDES))}.")
     for name, value in (("stiffness", stiffness), ("maximum_force", maximum_force)):
         if not (np.isfinite(value) and value >= 0.0):
             raise ValueError(f"{name} is {value}; it must be finite and not below 0.")
-    for name, value in (("scale", scale), ("period", period)):
+    for name, value in (("scale", scale if given else 1.0), ("period", period)):
         if not (np.isfinite(value) and value > 0.0):
             raise ValueError(f"{name} is {value}; it must be finite and above 0.")
     filter_ = CLASSES["vtkGodObjectTrace"]()
@@ -79,11 +84,25 @@ def trace(
         filter_.SetSurfaceData(polydata(surface))
     filter_.SetStiffness(stiffness)
     filter_.SetMaximumForce(maximum_force)
-    filter_.SetWorldToDeviceScale(scale)
+    filter_.SetWorldToDeviceScale(scale if given else 1.0)
     filter_.SetTickPeriod(period)
     filter_.SetSide(SIDES[side])
     filter_.Update()
+    if not given:
+        _warn_of_size(filter_.GetInputDataObject(1, 0))
     return Trace(filter_.GetOutput(), period)
+
+
+def _warn_of_size(surface):
+    low, high = np.reshape(surface.GetBounds(), (3, 2)).T
+    size = (high - low).max()
+    if size > LARGEST:
+        warnings.warn(
+            f"the surface is {size:.4g} units across, which in the hand are metres as no scale is "
+            "given. Give the metres of one unit: scale=0.001 for millimetres, scale=1.0 if it is so.",
+            HapticsWarning,
+            stacklevel=3,
+        )
 
 
 def path_data(path, time=None):
