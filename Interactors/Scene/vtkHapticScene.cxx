@@ -1,5 +1,6 @@
 #include "vtkHapticScene.h"
 
+#include "haptics/Filters/ErrorText.h"
 #include "haptics/Scene/HapticSceneInternals.h"
 #include "vtkActor.h"
 #include "vtkHapticDevice.h"
@@ -17,11 +18,21 @@ vtkStandardNewMacro(vtkHapticScene);
 vtkHapticScene::vtkHapticScene()
   : Internal(std::make_unique<Internals>())
 {
+  this->ServoObserver =
+    this->Servo->AddObserver(vtkCommand::ErrorEvent, this, &vtkHapticScene::PassServoErrorOn);
 }
 
 vtkHapticScene::~vtkHapticScene()
 {
+  this->Servo->RemoveObserver(this->ServoObserver); // somebody else may hold it
   this->Servo->Stop();
+}
+
+void vtkHapticScene::PassServoErrorOn(vtkObject*, unsigned long, void* report)
+{
+  std::string text;
+  haptics::AppendErrorText(text, static_cast<const char*>(report));
+  vtkErrorMacro(<< text);
 }
 
 void vtkHapticScene::Fail(const std::string& message)

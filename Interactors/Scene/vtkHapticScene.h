@@ -14,7 +14,8 @@
  *
  * Errors: a surface that turns out empty, without polygons or with coordinates that are not finite
  * is reported through vtkErrorMacro and GetErrorMessage(), once for each change; what was touched
- * before stays in force.
+ * before stays in force. What the servo reports is an error of the scene too, so that who observes
+ * the scene hears of it.
  *
  * Memory: a snapshot of each surface, and while recording 144 bytes a tick up to
  * MaximumTraceTicks.
@@ -423,6 +424,7 @@ private:
   std::unique_ptr<Internals> Internal;
 
   void Fail(const std::string& message);
+  void PassServoErrorOn(vtkObject* servo, unsigned long event, void* report);
   void ForgetMessage(); // unless it is of a surface
   bool OpenDevice(vtkHapticDevice* device);
   bool PullSurfaces();
@@ -449,6 +451,7 @@ private:
   int GripButton = 2;
   std::string ErrorMessage;
   bool IsMessageOfSurface = false;
+  unsigned long ServoObserver = 0;
 
   double HapticInterfacePoint[3] = { 0.0, 0.0, 0.0 };
   double GodObject[3] = { 0.0, 0.0, 0.0 };

@@ -340,6 +340,22 @@ TEST(HapticScene, ADeviceThatWasClosedAndOpenedIsSteppedOn)
   EXPECT_STREQ(hand.Scene->GetErrorMessage(), "");
 }
 
+TEST(HapticScene, WhatItsServoReportsIsAnErrorOfTheSceneToo)
+{
+  LedHand hand;
+  EventCounter errors(hand.Scene, vtkCommand::ErrorEvent);
+  hand.Scene->SetStiffness(-1.0);
+  EXPECT_EQ(errors.Count, 1);
+  ASSERT_TRUE(hand.Scene->Engage());
+  hand.Device->Close();
+  for (int i = 0; i < 2000 && hand.Scene->IsEngaged(); ++i) // 10 s at most
+  {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    hand.Scene->Update();
+  }
+  EXPECT_EQ(errors.Count, 2) << "the loss of the device";
+}
+
 TEST(HapticScene, AMessageIsGoneAfterASuccess)
 {
   vtkNew<vtkHapticScene> scene;
