@@ -92,7 +92,10 @@ class Errors(unittest.TestCase):
     def test_a_surface_that_cannot_be_touched(self):
         device, scene = make()
         scene.Update()
-        scene.AddSurface(vtkPolyData())
+        corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
+        bad = vtkhaptics.polydata((corners, [[0, 1, 2]]))
+        bad.GetPoints().SetPoint(1, float("nan"), 0.0, 0.0)
+        scene.AddSurface(bad)
         with self.raises("vtkHapticScene", "Surface 1"):
             scene.Update()
 
