@@ -91,7 +91,8 @@ private:
   }
   static bool IsWhole(double sequence) noexcept
   {
-    constexpr double Largest = 9007199254740992.0; // 2^53: up to here every whole number is a float64
+    constexpr double Largest =
+      9007199254740992.0; // 2^53: up to here every whole number is a float64
     return sequence >= 0.0 && sequence < Largest && static_cast<std::int64_t>(sequence) % 2 == 0;
   }
 

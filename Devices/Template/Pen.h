@@ -31,9 +31,9 @@ private:
   static constexpr double Gravity = 9.81; // [m/s^2]
   static constexpr double Friction = 1.0; // [N s/m]
 
-  double Time = 0.0;    // [s]
-  double Height = 0.02; // [m]
-  double Speed = 0.0;   // [m/s]
+  double Time = 0.0;                // [s]
+  double Height = 0.02;             // [m]
+  double Speed = 0.0;               // [m/s]
   std::atomic<double> Force{ 0.0 }; // [N]
 };
 

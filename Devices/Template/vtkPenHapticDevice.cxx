@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <atomic>
 
-/// The servo thread's end. ReadDevice() and WriteDevice() are called once a tick each, in this order,
-/// and neither may wait, allocate, lock or log: a device that has to wait for a bus does so in a
-/// thread of its own, with haptics::LatestValue between the two (see the Falcon's driver).
+/// The servo thread's end. ReadDevice() and WriteDevice() are called once a tick each, in this
+/// order, and neither may wait, allocate, lock or log: a device that has to wait for a bus does so
+/// in a thread of its own, with haptics::LatestValue between the two (see the Falcon's driver).
 class vtkPenHapticDevice::PenChannel : public haptics::MonitoredChannel
 {
 public:
@@ -26,7 +26,8 @@ protected:
   bool ReadDevice(double time, haptics::DeviceSample& sample) noexcept override
   {
     sample.Buttons = 0; // bit i is set while button i is held
-    return this->Driver.GetPosition(time, sample.Position); // false: lost, and no force from here on
+    return this->Driver.GetPosition(
+      time, sample.Position); // false: lost, and no force from here on
   }
 
   void WriteDevice(const std::array<double, 3>& force) noexcept override

@@ -45,8 +45,8 @@ private:
 ///
 /// A task is never destroyed on the worker thread: it may hold the last reference to a vtkObject
 /// whose observers expect the GUI thread. The thread starts with the first task and sleeps between
-/// tasks. In a child of fork() it has none: what was in work stays undone, and what comes is done by
-/// Start().
+/// tasks. In a child of fork() it has none: what was in work stays undone, and what comes is done
+/// by Start().
 class BackgroundWorker
 {
 public:

@@ -270,8 +270,8 @@ public:
 
   /**
    * Runs ticks in virtual time on this thread, for scripts and tests, then does what Update()
-   * does. Returns the ticks done; 0 and an error while engaged, without a device, or n < 1. A device
-   * that is not open, or whose path or other settings have changed since it was
+   * does. Returns the ticks done; 0 and an error while engaged, without a device, or n < 1. A
+   * device that is not open, or whose path or other settings have changed since it was
    * (vtkHapticDevice::HasChanged()), is opened first, and begins at time 0: to stroke again with
    * another path, set it and step.
    */
@@ -361,9 +361,9 @@ public:
   ///@}
 
   /**
-   * Magnifies what the device reaches about the god-object: with a factor of 2 a movement goes twice
-   * as far in the world. A contact stays, with its force. False and an error where it is not finite
-   * and > 0.
+   * Magnifies what the device reaches about the god-object: with a factor of 2 a movement goes
+   * twice as far in the world. A contact stays, with its force. False and an error where it is not
+   * finite and > 0.
    */
   bool ScaleWorkspace(double factor);
 
@@ -406,9 +406,9 @@ public:
   /** The servo: rate, statistics, priority. Its device and surfaces are this scene's business. */
   vtkHapticServo* GetServo();
   /**
-   * What went wrong last, for people; empty where nothing has. A call that can fail (Engage(), Step(),
-   * FitWorkspace(), Grip() and so on) begins with none, so that it is empty after one that succeeds;
-   * but what was wrong with a surface stays until something else is.
+   * What went wrong last, for people; empty where nothing has. A call that can fail (Engage(),
+   * Step(), FitWorkspace(), Grip() and so on) begins with none, so that it is empty after one that
+   * succeeds; but what was wrong with a surface stays until something else is.
    */
   const char* GetErrorMessage() { return this->ErrorMessage.c_str(); }
 

@@ -4,7 +4,7 @@ import os
 import subprocess
 import sys
 import tempfile
-from typing import Any, Optional, Tuple
+from typing import Any, Optional
 
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
@@ -32,7 +32,7 @@ def picture_of(
     trace: Any = None,
     *,
     scalars: Optional[str] = None,
-    size: Tuple[int, int] = (800, 600),
+    size: tuple[int, int] = (800, 600),
 ) -> Picture:
     """A picture of a surface and of a hand that follows a trace over it.
 

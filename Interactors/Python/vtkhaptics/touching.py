@@ -1,6 +1,6 @@
 """Opens a window with surfaces of a program's own, to touch them."""
 
-from typing import Any, Optional, Tuple
+from typing import Any, Optional
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -17,7 +17,7 @@ def touch(
     device: Any = None,
     stiffness: float = 500.0,
     scalars: Optional[str] = None,
-    size: Tuple[int, int] = (1200, 800),
+    size: tuple[int, int] = (1200, 800),
 ) -> Trace:
     """Opens a window with surfaces to touch, by the mouse or by another device, until it is closed.
 

@@ -3,7 +3,7 @@
 import csv
 import os
 import warnings
-from typing import Any, Dict, List, Optional, Union
+from typing import Any, Optional, Union
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
@@ -160,7 +160,7 @@ class Trace:
         return vtk_to_numpy(array)
 
     @property
-    def names(self) -> List[str]:
+    def names(self) -> list[str]:
         """The names of the arrays of numbers."""
         data = self.polydata.GetPointData()
         return [data.GetArrayName(i) for i in range(data.GetNumberOfArrays()) if data.GetArray(i)]
@@ -222,7 +222,7 @@ class Trace:
         """What the hand has put in and not got out [J], (n,)."""
         return self["Energy"]
 
-    def columns(self) -> Dict[str, np.ndarray]:
+    def columns(self) -> dict[str, np.ndarray]:
         """The arrays by column name, each (n,): `Time` first, then `GodObject_X`, `_Y`, `_Z` and so
         on for vectors; components that are not three are numbered from 0."""
         columns = {"Time": self.time}
