@@ -16,6 +16,7 @@
 #include "vtkScalarBarActor.h"
 #include "vtkShaderProperty.h"
 #include "vtkSphereSource.h"
+#include "vtkWindow.h"
 
 #include <algorithm>
 #include <array>
@@ -25,12 +26,16 @@ vtkStandardNewMacro(vtkGodObjectActor);
 
 namespace
 {
-constexpr double HapticInterfacePointRadius = 0.75; // all in radii of the god-object
+constexpr double DefaultSize = 0.012;              // of the view's height
+constexpr double LeastPixels = 4.0;                // of a radius of that size
+constexpr double HapticInterfacePointRadius = 0.6; // all in radii of the god-object
 constexpr double SpringRadius = 0.16;
 constexpr double ShaftRadius = 0.3;
 constexpr double TipRadius = 0.75;
 constexpr double TipLength = 2.0;
 constexpr double ReferenceArrowLength = 12.0;
+constexpr double LeastRing = 1.6; // the ring's radius at the lightest touch
+constexpr double RingGrowth = 3.0;
 
 bool AllFinite(const double v[3])
 {
@@ -93,8 +98,9 @@ vtkGodObjectActor::vtkGodObjectActor()
   sphere->SetRadius(1.0);
   sphere->SetThetaResolution(36);
   sphere->SetPhiResolution(24);
-  Give(this->GodObjectPart, sphere->GetOutputPort(), 1.0, 0.78, 0.18);
-  Give(this->HapticInterfacePointPart, sphere->GetOutputPort(), 0.55, 0.80, 1.0);
+  Give(this->GodObjectPart, sphere->GetOutputPort(), 0.94, 0.94, 0.90);
+  this->GodObjectLook->DeepCopy(this->GodObjectPart->GetProperty());
+  Give(this->HapticInterfacePointPart, sphere->GetOutputPort(), 0.16, 0.48, 0.92);
 
   vtkNew<vtkCylinderSource> bar;
   bar->SetCenter(0.0, 0.5, 0.0);
@@ -102,7 +108,6 @@ vtkGodObjectActor::vtkGodObjectActor()
   bar->SetResolution(24);
   Give(this->SpringPart, bar->GetOutputPort(), 0.85, 0.92, 1.0);
   Give(this->ForceShaftPart, bar->GetOutputPort(), 0.92, 0.22, 0.15);
-  this->ShowThrough();
 
   vtkNew<vtkConeSource> tip;
   tip->SetDirection(0.0, 1.0, 0.0);
@@ -113,6 +118,7 @@ vtkGodObjectActor::vtkGodObjectActor()
   this->ForceTipPart->SetProperty(this->ForceShaftPart->GetProperty());
 
   this->MakeMarks();
+  this->ShowThrough();
 }
 
 vtkGodObjectActor::~vtkGodObjectActor() = default;
@@ -130,9 +136,14 @@ void vtkGodObjectActor::SetReferenceForce(double value)
 void vtkGodObjectActor::ShowThrough()
 {
   for (vtkActor* part :
-    { this->GodObjectPart.Get(), this->HapticInterfacePointPart.Get(), this->SpringPart.Get() })
+    { this->GodObjectPart.Get(), this->HapticInterfacePointPart.Get(), this->SpringPart.Get(),
+      this->ForceShaftPart.Get(), this->ForceTipPart.Get(), this->ContactPart.Get() })
   {
     DrawThroughSurfaces(part, this->SeeThrough);
+  }
+  if (!this->SeeThrough)
+  {
+    this->KeepRingOnSurface();
   }
 }
 
@@ -202,9 +213,14 @@ double vtkGodObjectActor::RadiusInWorld(vtkViewport* viewport) const
     return this->Size;
   }
   vtkCamera* camera = renderer->GetActiveCamera();
+  // A picture at a multiple of the window's size is drawn in tiles, each with a narrower view.
+  const double tiles = renderer->GetVTKWindow() ? renderer->GetVTKWindow()->GetTileScale()[1] : 1.0;
+  const double height = std::max(1, renderer->GetSize()[1]);
+  const double least = LeastPixels / height * std::min(1.0, this->Size / DefaultSize);
+  const double size = tiles * std::max(this->Size, least);
   if (camera->GetParallelProjection())
   {
-    return this->Size * 2.0 * camera->GetParallelScale();
+    return size * 2.0 * camera->GetParallelScale();
   }
   double toGodObject[3];
   vtkMath::Subtract(this->GodObject, camera->GetPosition(), toGodObject);
@@ -214,7 +230,7 @@ double vtkGodObjectActor::RadiusInWorld(vtkViewport* viewport) const
     depth = camera->GetDistance();
   }
   const double halfAngle = 0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle());
-  return this->Size * 2.0 * depth * std::tan(halfAngle);
+  return size * 2.0 * depth * std::tan(halfAngle);
 }
 
 void vtkGodObjectActor::ArrangeForce(double radius)
@@ -265,14 +281,41 @@ void vtkGodObjectActor::Arrange(vtkViewport* viewport)
     Stretch(this->SpringPart, this->HapticInterfacePoint, spring, length, SpringRadius * radius);
   }
   this->ArrangeForce(radius);
+  this->ArrangeContact(viewport, radius);
   this->ArrangeMarks(viewport);
+}
+
+/// The ring lies across the force, which is the surface's normal but for friction, and widens with
+/// it; the ball and its coloured band have the force's colour.
+void vtkGodObjectActor::ArrangeContact(vtkViewport* viewport, double radius)
+{
+  double normal[3] = { this->Force[0], this->Force[1], this->Force[2] };
+  const double force = vtkMath::Normalize(normal);
+  const bool shown = this->ShowContact && this->Touching && force > 0.0;
+  this->ContactPart->SetVisibility(shown);
+  this->GodObjectPart->SetProperty(shown ? this->TouchingLook : this->GodObjectLook);
+  if (!shown)
+  {
+    return;
+  }
+  const double share = force / this->ReferenceForce;
+  const std::array<double, 3> color = haptics::ForceColor(share);
+  this->TouchingLook->DeepCopy(this->GodObjectLook);
+  this->TouchingLook->SetColor(color[0], color[1], color[2]);
+  this->ColorRing(color.data());
+  const double width = radius * (LeastRing + RingGrowth * std::min(1.0, share));
+  Stretch(this->ContactPart, this->GodObject, normal, width, width);
+  if (!this->SeeThrough)
+  {
+    this->LiftRing(viewport);
+  }
 }
 
 std::vector<vtkActor*> vtkGodObjectActor::Parts() const
 {
   return { this->GodObjectPart, this->HapticInterfacePointPart, this->SpringPart,
-    this->ForceShaftPart, this->ForceTipPart, this->TrailPart, this->TrianglesPart,
-    this->LandmarksPart };
+    this->ForceShaftPart, this->ForceTipPart, this->ContactPart, this->TrailPart,
+    this->TrianglesPart, this->LandmarksPart };
 }
 
 int vtkGodObjectActor::RenderOpaqueGeometry(vtkViewport* viewport)
@@ -361,7 +404,7 @@ void vtkGodObjectActor::IncludeInClippingRange(vtkRenderer* renderer)
 
 vtkProperty* vtkGodObjectActor::GetGodObjectProperty()
 {
-  return this->GodObjectPart->GetProperty();
+  return this->GodObjectLook;
 }
 
 vtkProperty* vtkGodObjectActor::GetHapticInterfacePointProperty()
@@ -399,6 +442,7 @@ void vtkGodObjectActor::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ShowHapticInterfacePoint: " << (this->ShowHapticInterfacePoint ? "On" : "Off")
      << "\n";
   os << indent << "ShowForce: " << (this->ShowForce ? "On" : "Off") << "\n";
+  os << indent << "ShowContact: " << (this->ShowContact ? "On" : "Off") << "\n";
   os << indent << "ShowTrail: " << (this->ShowTrail ? "On" : "Off") << "\n";
   os << indent << "ShowLegend: " << (this->ShowLegend ? "On" : "Off") << "\n";
   os << indent << "ShowActiveTriangles: " << (this->ShowActiveTriangles ? "On" : "Off") << "\n";

@@ -7,14 +7,21 @@
  * - the haptic interface point (HIP), a paler and smaller sphere where the device is;
  * - the spring, a thin bar between the two;
  * - the force, an arrow at the god-object;
+ * - the contact, a ring on the surface around the god-object, the wider the stronger the force: it
+ *   tells how strong that is where the arrow points at the viewer;
  * - the trail (off by default), the last points that the god-object went through;
  * - on request the triangles that hold it, landmarks, and a legend of the force's colours.
  *
- * The HIP is usually inside the surface, so god-object, HIP and spring are drawn through whatever
- * lies in front, unless SeeThrough is off. Keep them opaque.
+ * While it touches, god-object and ring have the colour of the force's strength, from pale gold to
+ * crimson at ReferenceForce; the god-object is pale while it does not.
+ *
+ * The HIP is usually inside the surface, so all these are drawn through whatever lies in front,
+ * unless SeeThrough is off. Keep them opaque.
  *
  * Sizes are fractions of the view's height, so that a terrain of 30 km and a gear of 3 mm look
- * alike and zooming in does not hide the surface; see SetSizeInWorld() for the other way.
+ * alike and zooming in does not hide the surface, and at least some pixels, for small views; see
+ * SetSizeInWorld() for the other way. A picture at a multiple of the window's size
+ * (vtkWindowToImageFilter::SetScale()) has them in the same proportion.
  *
  * The prop is not pickable, takes no part in the bounds of a scene (so that ResetCamera() frames
  * the surfaces, not the hand) and is never touched. Because of that the renderer's clipping range
@@ -31,13 +38,13 @@
 #include "vtkHapticsViewModule.h"
 #include "vtkNew.h"
 #include "vtkProp3D.h"
+#include "vtkProperty.h"
 #include "vtkSmartPointer.h"
 
 #include <vector>
 
 class vtkActor;
 class vtkPolyData;
-class vtkProperty;
 class vtkRenderer;
 class vtkScalarBarActor;
 
@@ -124,6 +131,9 @@ public:
   vtkSetMacro(ShowForce, bool);
   vtkGetMacro(ShowForce, bool);
   vtkBooleanMacro(ShowForce, bool);
+  vtkSetMacro(ShowContact, bool);
+  vtkGetMacro(ShowContact, bool);
+  vtkBooleanMacro(ShowContact, bool);
   vtkSetMacro(ShowTrail, bool);
   vtkGetMacro(ShowTrail, bool);
   vtkBooleanMacro(ShowTrail, bool);
@@ -167,8 +177,8 @@ public:
 
   ///@{
   /**
-   * On (the default): god-object, HIP and spring are drawn through whatever lies in front. Off:
-   * they are occluded as anything else.
+   * On (the default): god-object, HIP, spring, force and contact are drawn through whatever lies in
+   * front. Off: they are occluded as anything else.
    */
   void SetSeeThrough(bool through);
   vtkGetMacro(SeeThrough, bool);
@@ -184,7 +194,10 @@ public:
   void ClearTrail();
 
   ///@{
-  /** How each part looks. */
+  /**
+   * How each part looks. The god-object's colour is that of free space; while it touches it has the
+   * colour of the force, unless ShowContact is off.
+   */
   vtkProperty* GetGodObjectProperty();
   vtkProperty* GetHapticInterfacePointProperty();
   vtkProperty* GetSpringProperty();
@@ -224,6 +237,11 @@ private:
   double RadiusInWorld(vtkViewport* viewport) const;
   void Arrange(vtkViewport* viewport);
   void ArrangeForce(double radius);
+  void ArrangeContact(vtkViewport* viewport, double radius);
+  void MakeRing();
+  void ColorRing(const double color[3]);
+  void KeepRingOnSurface();
+  void LiftRing(vtkViewport* viewport);
   void BuildTrail();
   void ShowThrough();
   void MakeMarks();
@@ -240,6 +258,7 @@ private:
   double ReferenceForce = 3.3;
   bool ShowHapticInterfacePoint = true;
   bool ShowForce = true;
+  bool ShowContact = true;
   bool ShowTrail = false;
   bool ShowActiveTriangles = false;
   bool ColorForceByMagnitude = false;
@@ -252,10 +271,14 @@ private:
   vtkNew<vtkActor> SpringPart;
   vtkNew<vtkActor> ForceShaftPart;
   vtkNew<vtkActor> ForceTipPart;
+  vtkNew<vtkActor> ContactPart;
   vtkNew<vtkActor> TrailPart;
   vtkNew<vtkActor> TrianglesPart;
   vtkNew<vtkActor> LandmarksPart;
   vtkSmartPointer<vtkScalarBarActor> Legend; // made when first shown
+  vtkNew<vtkProperty> GodObjectLook;
+  vtkNew<vtkProperty> TouchingLook;
+  vtkNew<vtkPolyData> Ring;
   vtkNew<vtkPolyData> Trail;
   vtkNew<vtkPolyData> Triangles;
   vtkNew<vtkPolyData> Landmarks;

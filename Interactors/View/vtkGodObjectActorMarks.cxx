@@ -6,6 +6,7 @@
 #include "vtkActor.h"
 #include "vtkCamera.h"
 #include "vtkCellArray.h"
+#include "vtkCellData.h"
 #include "vtkLookupTable.h"
 #include "vtkMath.h"
 #include "vtkPoints.h"
@@ -17,6 +18,7 @@
 #include "vtkShaderProperty.h"
 #include "vtkTextProperty.h"
 #include "vtkUniforms.h"
+#include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
 #include <array>
@@ -28,6 +30,8 @@ constexpr int LegendColors = 128;
 constexpr double DefaultSize = 0.012; // of the view's height
 constexpr double TrianglesLift = 1.0; // [pixel] towards the viewer
 constexpr double TrailLift = 4.0;     // a line's width more: half of it dips into a slope
+constexpr vtkIdType RingBands = 3;
+constexpr double RingEdge = 0.1; // grey of the dark bands
 constexpr const char* LiftUniform = "hapticsLift";
 
 /// Draws what lies in a surface a little nearer than the surface, by Lift(). VTK's own offset is
@@ -138,8 +142,74 @@ void vtkGodObjectActor::BuildTrail()
   this->TrailChanged = false;
 }
 
+/// Three bands of 1 in radius around the y axis: the coloured one between two dark ones, so that it
+/// stands out from bright and dark surfaces.
+void vtkGodObjectActor::MakeRing()
+{
+  constexpr int Sides = 72;
+  constexpr std::array<double, 4> Radii{ { 0.74, 0.80, 1.0, 1.06 } };
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (int i = 0; i < Sides; ++i)
+  {
+    const double angle = 2.0 * vtkMath::Pi() * i / Sides;
+    for (const double radius : Radii)
+    {
+      points->InsertNextPoint(radius * std::cos(angle), 0.0, radius * std::sin(angle));
+    }
+  }
+  vtkNew<vtkCellArray> quads;
+  for (vtkIdType i = 0; i < Sides; ++i)
+  {
+    const vtkIdType next = (i + 1) % Sides;
+    for (vtkIdType band = 0; band < RingBands; ++band)
+    {
+      const vtkIdType corners[4] = { 4 * i + band, 4 * i + band + 1, 4 * next + band + 1,
+        4 * next + band };
+      quads->InsertNextCell(4, corners);
+    }
+  }
+  this->Ring->SetPoints(points);
+  this->Ring->SetPolys(quads);
+  vtkNew<vtkUnsignedCharArray> colors;
+  colors->SetNumberOfComponents(3);
+  colors->SetNumberOfTuples(quads->GetNumberOfCells());
+  this->Ring->GetCellData()->SetScalars(colors);
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(this->Ring);
+  this->ContactPart->SetMapper(mapper);
+  this->ContactPart->GetProperty()->LightingOff();
+  this->ContactPart->PickableOff();
+}
+
+void vtkGodObjectActor::ColorRing(const double color[3])
+{
+  auto* colors = vtkUnsignedCharArray::SafeDownCast(this->Ring->GetCellData()->GetScalars());
+  for (vtkIdType i = 0; i < colors->GetNumberOfTuples(); ++i)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const double value = i % RingBands == 1 ? color[k] : RingEdge;
+      colors->SetTypedComponent(i, k, static_cast<unsigned char>(255.0 * value));
+    }
+  }
+  colors->Modified();
+  this->Ring->Modified();
+}
+
+void vtkGodObjectActor::KeepRingOnSurface()
+{
+  DrawTrianglesNearer(this->ContactPart);
+}
+
+void vtkGodObjectActor::LiftRing(vtkViewport* viewport)
+{
+  Lift(this->ContactPart, viewport, TrailLift);
+}
+
 void vtkGodObjectActor::MakeMarks()
 {
+  this->MakeRing();
   vtkNew<vtkPolyDataMapper> trail;
   trail->SetInputData(this->Trail);
   this->TrailPart->SetMapper(trail);

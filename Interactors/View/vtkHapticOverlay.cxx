@@ -11,6 +11,7 @@
 #include "vtkTextActor.h"
 #include "vtkTextProperty.h"
 #include "vtkViewport.h"
+#include "vtkWindow.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +23,9 @@ namespace
 {
 constexpr double GroundColor[3] = { 0.09, 0.11, 0.15 };
 constexpr double GroundOpacity = 0.72;
-constexpr int Margin = 12; // [pixel]
+constexpr int Margin = 12;            // [pixel]
+constexpr double LeastLines = 22.0;   // of text that a view has room for
+constexpr double LeastColumns = 30.0; // in heights of the text
 
 void MakeText(vtkTextActor* part, int vertical)
 {
@@ -89,6 +92,7 @@ vtkHapticOverlay::vtkHapticOverlay()
   this->NumberPart->GetTextProperty()->SetBackgroundOpacity(0.0);
   this->NumberPart->GetTextProperty()->BoldOn();
   MakeText(this->ReadoutPart, VTK_TEXT_BOTTOM);
+  MakeText(this->StatusPart, VTK_TEXT_BOTTOM);
   MakeText(this->HelpPart, VTK_TEXT_TOP);
   this->HelpPart->GetTextProperty()->SetFontFamilyToCourier(); // for its columns
 }
@@ -143,49 +147,96 @@ void vtkHapticOverlay::SetHelp(const std::string& text)
   }
 }
 
+void vtkHapticOverlay::SetStatus(const std::string& text)
+{
+  if (text != this->Status)
+  {
+    this->Status = text;
+    this->Modified();
+  }
+}
+
+void vtkHapticOverlay::SetHint(const std::string& text)
+{
+  if (text != this->Hint)
+  {
+    this->Hint = text;
+    this->Modified();
+  }
+}
+
 void vtkHapticOverlay::ArrangeBar()
 {
-  const double height = 1.9 * this->FontSize;
-  const double number = 5.0 * this->FontSize;
-  const double length = 11.0 * this->FontSize;
-  const double gap = 0.5 * this->FontSize;
-  SetBox(this->Ground, Margin, Margin, length + number + 2.0 * gap, height);
+  const double height = 1.9 * this->Text;
+  const double number = 5.0 * this->Text;
+  const double length = 11.0 * this->Text;
+  const double gap = 0.5 * this->Text;
+  const double x = this->Left + Margin * this->Unit;
+  const double y = this->Bottom + Margin * this->Unit;
+  SetBox(this->Ground, x, y, length + number + 2.0 * gap, height);
   const double share = std::min(1.0, this->Force / this->MaximumForce);
-  SetBox(this->Bar, Margin + gap, Margin + gap, share * length, height - 2.0 * gap);
+  SetBox(this->Bar, x + gap, y + gap, share * length, height - 2.0 * gap);
   const std::array<double, 3> color = haptics::ForceColor(share);
   this->BarPart->GetProperty()->SetColor(color[0], color[1], color[2]);
 
   char text[32];
   std::snprintf(text, sizeof(text), "%.2f N", this->Force);
   this->NumberPart->SetInput(text);
-  this->NumberPart->SetPosition(Margin + length + 2.0 * gap, Margin + 0.5 * height);
+  this->NumberPart->SetPosition(x + length + 2.0 * gap, y + 0.5 * height);
 }
 
 void vtkHapticOverlay::Arrange(vtkViewport* viewport)
 {
-  for (vtkTextActor* part :
-    { this->NumberPart.Get(), this->ReadoutPart.Get(), this->HelpPart.Get() })
+  // A picture at a multiple of the window's size is drawn in tiles, whose parts of the whole are
+  // the tile viewport; sizes and places are those of the window, as many times as large.
+  vtkWindow* window = viewport->GetVTKWindow();
+  const int* tiles = window ? window->GetTileScale() : nullptr;
+  this->Unit = tiles ? std::max(1, tiles[1]) : 1.0;
+  double part[4] = { 0.0, 0.0, 1.0, 1.0 };
+  if (window)
   {
-    part->GetTextProperty()->SetFontSize(this->FontSize);
+    window->GetTileViewport(part);
+  }
+  const double width = viewport->GetSize()[0] * this->Unit;
+  const double height = viewport->GetSize()[1] * this->Unit;
+  this->Left = -part[0] * width;
+  this->Bottom = -part[1] * height;
+  // Small views have smaller text.
+  const double fits =
+    std::min(viewport->GetSize()[1] / LeastLines, viewport->GetSize()[0] / LeastColumns);
+  this->Text = std::max(6.0, std::min<double>(this->FontSize, fits)) * this->Unit;
+  for (vtkTextActor* text : { this->NumberPart.Get(), this->ReadoutPart.Get(),
+         this->StatusPart.Get(), this->HelpPart.Get() })
+  {
+    // VTK multiplies the height of text by itself there, as a finer resolution.
+    text->GetTextProperty()->SetFontSize(static_cast<int>(this->Text / this->Unit));
   }
   this->ArrangeBar();
   this->GroundPart->SetVisibility(this->ShowForce);
   this->BarPart->SetVisibility(this->ShowForce && this->Force > 0.0);
   this->NumberPart->SetVisibility(this->ShowForce);
 
-  const double above = this->ShowForce ? Margin + 1.9 * this->FontSize + 6.0 : Margin;
+  const double left = this->Left + Margin * this->Unit;
+  double above = this->Bottom + Margin * this->Unit;
+  above += this->ShowForce ? 1.9 * this->Text + 6.0 * this->Unit : 0.0;
+  this->StatusPart->SetInput(Padded(this->Status).c_str());
+  this->StatusPart->SetPosition(left, above);
+  this->StatusPart->SetVisibility(!this->Status.empty());
+
+  above += this->Status.empty() ? 0.0 : 1.5 * this->Text + 6.0 * this->Unit;
   this->ReadoutPart->SetInput(Padded(this->Readout).c_str());
-  this->ReadoutPart->SetPosition(Margin, above);
+  this->ReadoutPart->SetPosition(left, above);
   this->ReadoutPart->SetVisibility(this->ShowReadout && !this->Readout.empty());
 
-  this->HelpPart->SetInput(Padded(this->Help).c_str());
-  this->HelpPart->SetPosition(Margin, viewport->GetSize()[1] - Margin);
-  this->HelpPart->SetVisibility(this->ShowHelp && !this->Help.empty());
+  const std::string& top = this->ShowHelp ? this->Help : this->Hint;
+  this->HelpPart->SetInput(Padded(top).c_str());
+  this->HelpPart->SetPosition(left, this->Bottom + height - Margin * this->Unit);
+  this->HelpPart->SetVisibility(!top.empty());
 }
 
-std::array<vtkActor2D*, 5> vtkHapticOverlay::Parts() const
+std::array<vtkActor2D*, 6> vtkHapticOverlay::Parts() const
 {
-  return { { this->GroundPart, this->BarPart, this->NumberPart, this->ReadoutPart,
+  return { { this->GroundPart, this->BarPart, this->NumberPart, this->ReadoutPart, this->StatusPart,
     this->HelpPart } };
 }
 
@@ -230,6 +281,8 @@ void vtkHapticOverlay::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Force [N]: " << this->Force << " of " << this->MaximumForce << "\n";
   os << indent << "Readout: " << this->Readout << "\n";
+  os << indent << "Status: " << this->Status << "\n";
+  os << indent << "Hint: " << this->Hint << "\n";
   os << indent << "Help: " << this->Help << "\n";
   os << indent << "ShowForce: " << (this->ShowForce ? "On" : "Off") << "\n";
   os << indent << "ShowReadout: " << (this->ShowReadout ? "On" : "Off") << "\n";

@@ -10,6 +10,7 @@
 #include "vtkHapticLandmarks.h"
 #include "vtkHapticOverlay.h"
 #include "vtkHapticScene.h"
+#include "vtkHapticServo.h"
 #include "vtkHapticView.h"
 #include "vtkObjectFactory.h"
 #include "vtkRenderWindow.h"
@@ -30,6 +31,12 @@ namespace
 constexpr double LeastRest = 0.004; // [s] between two pictures, for the events
 constexpr double RestShare = 0.15;  // of the time that the last picture took
 
+constexpr double RefusalTime = 5.0; // [s] for which a reason can be read
+
+constexpr const char* MouseHint = "Move the mouse over the surface.\n"
+                                  "Hold the space bar to press; move to stroke.\n"
+                                  "The wheel sets how deep. Drag to turn.\n"
+                                  "? lists all keys, q quits.";
 constexpr const char* MouseHelp = "move         hand, over the surface under the cursor\n"
                                   "space held   press; move to stroke (or Shift + left button)\n"
                                   "wheel        how deep; alone: press, and stay\n"
@@ -311,6 +318,7 @@ bool vtkInteractorStyleHaptic::UpdateScene()
 {
   this->ConnectDevice();
   this->MustRender = this->Scene->Update() || this->MustRender;
+  this->ShowStatus();
   vtkRenderer* renderer = this->FindRenderer();
   this->Watch(renderer);
   if (!this->MustRender || !renderer || !this->Interactor->GetInitialized() ||
@@ -422,7 +430,85 @@ void vtkInteractorStyleHaptic::Engage()
     return;
   }
   vtkRenderer* renderer = this->FindRenderer();
-  this->Scene->EngageInView(renderer ? renderer->GetActiveCamera() : nullptr);
+  if (!this->Scene->EngageInView(renderer ? renderer->GetActiveCamera() : nullptr))
+  {
+    this->Refuse(this->Scene->GetErrorMessage());
+  }
+}
+
+void vtkInteractorStyleHaptic::DropLandmark()
+{
+  if (this->Scene->GetTouching())
+  {
+    this->Scene->DropLandmark();
+  }
+  else
+  {
+    this->Refuse("A landmark lies where the hand touches: touch a surface, then press d.");
+  }
+}
+
+void vtkInteractorStyleHaptic::Refuse(const std::string& reason)
+{
+  this->Refusal = reason;
+  this->RefusedUntil = vtkTimerLog::GetUniversalTime() + RefusalTime;
+}
+
+std::string vtkInteractorStyleHaptic::DescribeState()
+{
+  if (vtkTimerLog::GetUniversalTime() < this->RefusedUntil)
+  {
+    return this->Refusal;
+  }
+  vtkHapticDevice* device = this->Scene->GetDevice();
+  const char* waits = device ? device->GetStatusMessage() : "";
+  const int state = this->Scene->GetServo()->GetState();
+  const bool isLive = state == vtkHapticServo::Running || state == vtkHapticServo::Stepping;
+  if (this->Scene->IsBuilding())
+  {
+    const int share = static_cast<int>(100.0 * this->Scene->GetBuildProgress());
+    const int filled = share / 5;
+    return "preparing the surfaces  [" + std::string(filled, '#') + std::string(20 - filled, '.') +
+      "]  " + std::to_string(share) + " %";
+  }
+  if (!isLive)
+  {
+    return *waits ? std::string("released: ") + waits : "released: h engages the hand";
+  }
+  if (this->Scene->GetClutched())
+  {
+    return "clutched: c takes hold again";
+  }
+  if (this->Scene->GetGrippedSurface() >= 0)
+  {
+    return "carrying: x lets go";
+  }
+  if (this->Scene->GetTouching())
+  {
+    return "touching";
+  }
+  return *waits ? waits : "in free space";
+}
+
+void vtkInteractorStyleHaptic::ShowStatus()
+{
+  vtkRenderer* renderer = this->FindRenderer();
+  if (!renderer)
+  {
+    return;
+  }
+  vtkHapticOverlay* overlay = this->View->GetOverlay();
+  if (!renderer->HasViewProp(overlay))
+  {
+    return;
+  }
+  this->HasTouched = this->HasTouched || this->Scene->GetTouching();
+  vtkHapticDevice* device = this->Scene->GetDevice();
+  const bool isMouse = device && device->UsesView();
+  overlay->SetHint(isMouse && !this->HasTouched ? MouseHint : "");
+  overlay->SetStatus(this->DescribeState());
+  this->MustRender = this->MustRender || overlay->GetMTime() > this->ShownOverlay;
+  this->ShownOverlay = overlay->GetMTime();
 }
 
 void vtkInteractorStyleHaptic::ToggleTrail()
@@ -441,9 +527,13 @@ void vtkInteractorStyleHaptic::ToggleGrip()
   {
     this->Scene->LetGo();
   }
-  else
+  else if (!this->Scene->GetTouching())
   {
-    this->Scene->Grip();
+    this->Refuse("What is touched is gripped: touch a surface, then press x.");
+  }
+  else if (!this->Scene->Grip())
+  {
+    this->Refuse(this->Scene->GetErrorMessage());
   }
 }
 
@@ -472,7 +562,10 @@ void vtkInteractorStyleHaptic::OnChar()
     case 'V':
       if (vtkRenderer* renderer = this->FindRenderer())
       {
-        this->Scene->FitWorkspace(renderer->GetActiveCamera());
+        if (!this->Scene->FitWorkspace(renderer->GetActiveCamera()))
+        {
+          this->Refuse(this->Scene->GetErrorMessage());
+        }
       }
       break;
     case 'b':
@@ -481,7 +574,7 @@ void vtkInteractorStyleHaptic::OnChar()
       break;
     case 'd':
     case 'D':
-      this->Scene->DropLandmark();
+      this->DropLandmark();
       break;
     case 'z':
     case 'Z':

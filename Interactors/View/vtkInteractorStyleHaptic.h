@@ -26,6 +26,10 @@
  * keyboards and on keypads, whatever VTK reports of them: on X11 it reports keys as they
  * are without Shift.
  *
+ * Where the scene's overlay is in the picture it says what the hand does (touching, waiting,
+ * clutched, released, preparing) and why a key did nothing; with a mouse also how to begin, until
+ * the first touch.
+ *
  * A vtkMouseHapticDevice that is the scene's device is connected to the interactor; it takes the
  * wheel and the space bar for itself while it is open.
  *
@@ -52,6 +56,7 @@
 #include "vtkWeakPointer.h"
 
 #include <cstdint>
+#include <string>
 
 class vtkCallbackCommand;
 class vtkHapticScene;
@@ -125,6 +130,10 @@ private:
   void Exit();
   void RenderSoon();
   void Engage();
+  void DropLandmark();
+  void Refuse(const std::string& reason);
+  void ShowStatus();
+  std::string DescribeState();
   void ToggleGrip();
   void ToggleHelp();
   void ToggleLook(char key);
@@ -147,6 +156,10 @@ private:
   int SleepingTimerId = 0; ///< after the event loop has ended
   bool StartingTimer = false;
   bool MustRender = false;
+  bool HasTouched = false;   ///< the hint is not needed any more
+  std::string Refusal;       ///< why the last key did nothing
+  double RefusedUntil = 0.0; ///< [s] that is shown
+  vtkMTimeType ShownOverlay = 0;
   bool Interrupted = false;
   std::uint32_t InterruptsBefore = 0;
   double RestsUntil = 0.0; ///< no picture before [s], vtkTimerLog's universal time

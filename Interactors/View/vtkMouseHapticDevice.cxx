@@ -818,7 +818,7 @@ void vtkMouseHapticDevice::SetPressed(bool pressed)
 
 const char* vtkMouseHapticDevice::GetStatusMessage() const
 {
-  return this->Waiting ? "The hand waits for the mouse over a surface." : "";
+  return this->Waiting ? "waiting: move the mouse over a surface" : "";
 }
 
 void vtkMouseHapticDevice::PrintSelf(ostream& os, vtkIndent indent)

@@ -6,6 +6,7 @@ import os
 import subprocess
 import sys
 import tempfile
+import time
 from contextlib import redirect_stderr, redirect_stdout
 
 import numpy as np
@@ -17,7 +18,7 @@ from vtkmodules.vtkIOImage import vtkPNGReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
 from vtkmodules.vtkRenderingCore import vtkCamera
 
-from vtkhaptics import surfaces
+from vtkhaptics import detail, surfaces
 from vtkhaptics import viewer as viewer_module
 from vtkhaptics.arguments import parse
 from vtkhaptics.picture import fill_view
@@ -132,6 +133,48 @@ def test_colours_by_the_first_values_where_none_are_active(folder):
     assert colors(pictures[0]) > 4 * colors(pictures[1]) > 0, [colors(p) for p in pictures]
 
 
+def test_options_of_the_material_and_landmarks(folder):
+    surface, marks = ball(0.0, folder), os.path.join(folder, "marks.csv")
+    done = viewer(
+        surface, "--offscreen", "--seconds", "2", "--size", "200", "150", "--friction", "0.5",
+        "--unit", "mm", "--landmarks", marks,
+    )
+    assert done.returncode == 0, done.stderr
+    assert "x 1 mm" in done.stdout, done.stdout
+    assert os.path.exists(marks)
+    shown = Viewer(parse([surface, "--friction", "0.5", "--stiffness-array", "Height"]))
+    with redirect_stdout(io.StringIO()):
+        shown.add_surfaces()
+    id_ = shown.scene.GetSurfaceId(0)
+    assert shown.scene.GetSurfaceProperties(id_).GetStaticFriction() == 0.5
+
+
+def test_large_surfaces_are_coarse_while_the_picture_moves(folder):
+    before, detail.LARGE = detail.LARGE, 1000
+    try:
+        shown = Viewer(parse([ball(0.0, folder, 100), "--offscreen", "--size", "200", "150"]))
+        with redirect_stdout(io.StringIO()):
+            shown.add_surfaces()
+    finally:
+        detail.LARGE = before
+    shown.open()
+    actor = shown.renderer.GetActors().GetLastActor()
+
+    def triangles():
+        return actor.GetMapper().GetInput().GetNumberOfPolys()
+
+    time.sleep(detail.REST + 0.1)
+    shown.window.Render()
+    full = triangles()
+    shown.window.Render()
+    assert triangles() < full and triangles() > 100, (triangles(), full)
+    assert not shown.detail.rest(), "it still moves"
+    time.sleep(detail.REST + 0.1)
+    assert shown.detail.rest()
+    shown.window.Render()
+    assert triangles() == full and not shown.detail.rest()
+
+
 def test_simulated(folder):
     trace = os.path.join(folder, "s.vtp")
     done = viewer(
@@ -153,8 +196,7 @@ def test_the_window_is_there_while_surfaces_are_built(folder):
         return shown
 
     def words(shown):
-        actors = shown.renderer.GetActors2D()
-        return [a.GetInput() for a in actors if a.IsA("vtkTextActor")]
+        return [text for text in [shown.style.GetView().GetOverlay().GetStatus()] if text]
 
     shown, seen = opened(), []
     shown.window.AddObserver("EndEvent", lambda *_: seen.extend(words(shown)))
@@ -216,6 +258,10 @@ def test_bad_input(folder):
         (1, "could not be written", (surface, "--trace", os.path.join(folder, "no", "t.vtp"))),
         (2, "out of range", (surface, "--stiffness", "-1")),
         (2, "must end in .png", (surface, "--screenshot", "a.jpg")),
+        (1, "no folder", (surface, "--landmarks", os.path.join(folder, "no", "l.csv"))),
+        (2, "It has: ", (surface, "--stiffness-array", "Hieght")),
+        (2, "out of range", (surface, "--friction", "-1")),
+        (2, "--device falcon", (surface, "--firmware", "a.bin")),
         (2, "required", ()),
     ):
         failed = viewer(*arguments, "--offscreen", "--seconds", "2")
@@ -253,8 +299,11 @@ def test_stl_files_hold_as_many_triangles_as_they_say(folder):
 
     with gzip.open(path + ".gz", "wb", compresslevel=1) as file:
         file.write(whole)
+    assert surfaces.read_surface(path + ".gz").GetNumberOfPolys() == 3040
+    with open(path + ".gz", "r+b") as file:
+        file.truncate(len(whole) // 20)
     failed = viewer(path + ".gz", "--offscreen")
-    assert failed.returncode == 2 and "gunzip it first" in failed.stderr, failed.stderr
+    assert failed.returncode == 2 and "could not be unpacked" in failed.stderr, failed.stderr
 
 
 def test_vectors_that_are_not_finite_do_not_hide_a_surface(folder):
@@ -355,6 +404,8 @@ with tempfile.TemporaryDirectory() as scratch:
         test_the_window_is_there_while_surfaces_are_built,
         test_touches_with_the_mouse_and_replays_it,
         test_colours_by_the_first_values_where_none_are_active,
+        test_options_of_the_material_and_landmarks,
+        test_large_surfaces_are_coarse_while_the_picture_moves,
         test_simulated,
         test_what_is_gripped_is_carried_in_the_picture,
         test_bad_input,

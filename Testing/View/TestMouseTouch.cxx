@@ -56,5 +56,6 @@ int TestMouseTouch(int argc, char* argv[])
     std::cerr << "The mouse does not touch the ball: " << scene->GetErrorMessage() << '\n';
     return EXIT_FAILURE;
   }
+  style->UpdateScene(); // the status line
   return picture.Compare(argc, argv);
 }

@@ -1,6 +1,7 @@
 """The command line of ``python3 -m vtkhaptics``."""
 
 import argparse
+import math
 
 from .surfaces import FORMATS
 
@@ -9,7 +10,9 @@ SIDES = ("auto", "front", "both")
 EPILOG = """examples:
   python3 -m vtkhaptics gearbox.stl
       touch it with the mouse: hold space to press, move to stroke, ? lists the keys
-  python3 -m vtkhaptics pial.vtp --scalars sulc --device simulated
+  python3 -m vtkhaptics head.nii.gz --contour 500 --landmarks points.csv
+      the contour of an image at a value; what d drops is written at the end
+  python3 -m vtkhaptics pial.vtp --scalars Sulc --device simulated
       a simulated hand strokes it; values are coloured
   python3 -m vtkhaptics skull.vtp vessel.stl --stiffness 800 --side both
       two surfaces at once, harder, touched from inside too; x carries the one that is touched
@@ -41,7 +44,17 @@ def parse(arguments):
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument(
-        "surfaces", nargs="+", metavar="SURFACE", help="what to touch: " + ", ".join(FORMATS)
+        "surfaces",
+        nargs="+",
+        metavar="SURFACE",
+        help="what to touch: " + ", ".join(FORMATS) + ", also with .gz behind, or a folder with the "
+        "slices of a DICOM image; of meshes and images the outside, see --contour",
+    )
+    parser.add_argument(
+        "--contour",
+        type=float,
+        metavar="VALUE",
+        help="touch where the values of a mesh or an image are so, not its outside",
     )
     parser.add_argument(
         "--device",
@@ -55,6 +68,27 @@ def parse(arguments):
         default=500.0,
         metavar="K",
         help="of the surfaces in the hand [N/m], above 0 (default 500)",
+    )
+    parser.add_argument(
+        "--stiffness-array",
+        metavar="ARRAY",
+        help="point or cell array with the stiffness of each place [N/m]",
+    )
+    parser.add_argument(
+        "--friction",
+        type=float,
+        default=0.0,
+        metavar="MU",
+        help="coefficient at which the hand breaks away, 0 to 10 (default 0); it slides with 0.8 of it",
+    )
+    parser.add_argument(
+        "--friction-array", metavar="ARRAY", help="point or cell array with the coefficient"
+    )
+    parser.add_argument(
+        "--firmware", metavar="FILE", help="what a Falcon is given that has none yet"
+    )
+    parser.add_argument(
+        "--unit", metavar="NAME", help="length unit of the files, for what is printed, such as mm"
     )
     parser.add_argument(
         "--side",
@@ -73,6 +107,9 @@ def parse(arguments):
         "--screenshot", metavar="FILE", help="write a PNG of the end, or when the window is closed"
     )
     parser.add_argument("--trace", metavar="FILE", help="write what was felt as .vtp")
+    parser.add_argument(
+        "--landmarks", metavar="FILE", help="write what d has dropped as .csv: place, values, label"
+    )
     parser.add_argument("--offscreen", action="store_true", help="open no window")
     parser.add_argument(
         "--seconds",
@@ -92,11 +129,17 @@ def parse(arguments):
     options = parser.parse_args(arguments)
     if not 0.0 < options.stiffness < 1e6:
         parser.error(f"--stiffness {options.stiffness:g} is out of range; give 0 to 1e6 N/m")
+    if not 0.0 <= options.friction <= 10.0:
+        parser.error(f"--friction {options.friction:g} is out of range; give 0 to 10")
+    if options.contour is not None and not math.isfinite(options.contour):
+        parser.error(f"--contour {options.contour:g} is no value; give a number")
+    if options.firmware and options.device != "falcon":
+        parser.error("--firmware is for --device falcon")
     if not 2.0 <= options.seconds <= 600.0:
         parser.error(f"--seconds {options.seconds:g} is out of range; give 2 to 600")
     if not all(100 <= pixels <= 8000 for pixels in options.size):
         parser.error(f"--size {options.size[0]} {options.size[1]} is out of range; give 100 to 8000")
-    for name, extension in (("screenshot", ".png"), ("trace", ".vtp")):
+    for name, extension in (("screenshot", ".png"), ("trace", ".vtp"), ("landmarks", ".csv")):
         path = getattr(options, name)
         if path and not path.lower().endswith(extension):
             parser.error(f"--{name} {path}: its name must end in {extension}")

@@ -31,7 +31,7 @@ EPILOG = """examples:
 
 what it leaves in the output folder:
   touched.png   the surface, the stroke coloured by force, and the hand at one moment:
-                god-object (gold), device (pale blue), force (red arrow)
+                god-object (coloured by the force), device (blue), force (red arrow)
   trace.vtp     the path of the god-object, one point a tick, with the arrays Time [s],
                 HapticInterfacePoint, Force [N], ActiveConstraints, Surface, OriginalCellId,
                 Penetration

@@ -73,6 +73,17 @@ def add_lights(renderer):
         renderer.AddLight(light)
 
 
+def check_writable(path):
+    """Raises OutputError where a file could not be written."""
+    folder = os.path.dirname(os.path.abspath(path))
+    if not os.path.isdir(folder):
+        raise OutputError(f"{path}: could not be written: there is no folder {folder}. Make it first.")
+    if not os.access(folder, os.W_OK) or (os.path.exists(path) and not os.access(path, os.W_OK)):
+        raise OutputError(f"{path}: could not be written: no permission. Choose another place.")
+    if os.path.isdir(path):
+        raise OutputError(f"{path}: could not be written: it is a folder. Choose a file's name.")
+
+
 def smooth_edges(renderer, window):
     """Smooths edges in a pass over the finished picture. Several samples a pixel, which VTK takes
     by default, make a picture drawn without a graphics card five to eight times as slow."""

@@ -1,29 +1,35 @@
 """Reads a surface from a file and says clearly what is wrong with one that cannot be touched."""
 
 import contextlib
+import gzip
 import os
 import re
 import shutil
 import tempfile
+import zlib
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkSTLReader
-from vtkmodules.vtkIOLegacy import vtkPolyDataReader
 from vtkmodules.vtkIOPLY import vtkPLYReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+
+from . import volumes
+from .trial import Crashed, try_apart
+from .volumes import NoSurfaceError
 
 READERS = {
     ".stl": vtkSTLReader,
     ".ply": vtkPLYReader,
     ".obj": vtkOBJReader,
     ".vtp": vtkXMLPolyDataReader,
-    ".vtk": vtkPolyDataReader,
+    **volumes.READERS,
 }
 
-FORMATS = sorted([*READERS, ".gii"])
+FORMATS = sorted([*READERS, ".gii", ".off"])
+CRASHING = (".obj", ".ply", ".vtk", ".glb", ".gltf", ".off", ".nii", ".nrrd", ".nhdr")
 
 # With expat 2.6, or an older one that Debian mended against the same attack, VTK 9.1 and 9.2 stop
 # with an XML error at the appended data of all but the smallest files.
@@ -73,7 +79,9 @@ def run_reader(reader, progress=None):
     return []
 
 
-def _has_appended_data(path):
+def _has_appended_data(path, extension):
+    if not extension.startswith(".vt") or extension == ".vtk":
+        return False
     with open(path, "rb") as file:
         return b"<AppendedData" in file.read()
 
@@ -194,56 +202,152 @@ def default_array(surface):
     return None
 
 
-def unit_note(path, surface):
-    """One line about the size of a surface, and that its unit is not known: files name none."""
+def unit_note(path, surface, unit=None):
+    """One line about the size of a surface, and that its unit is not known where nobody says it:
+    files name none."""
     low, high = surface.GetBounds()[::2], surface.GetBounds()[1::2]
     size = " x ".join(f"{b - a:.4g}" for a, b in zip(low, high))
     triangles = sum(
         cells.GetNumberOfConnectivityIds() - 2 * cells.GetNumberOfCells()
         for cells in (surface.GetPolys(), surface.GetStrips())
     )
-    return (
-        f"{os.path.basename(path)}: {triangles:,} triangles, {size} in the file's own length unit "
-        "(it names none; the hand's space is fitted to it)"
+    length = unit or (
+        "in the file's own length unit (it names none; the hand's space is fitted to it)"
     )
+    return f"{os.path.basename(path)}: {triangles:,} triangles, {size} {length}"
 
 
-def read_surface(path, progress=None):
-    """The vtkPolyData in a file of one of READERS' formats, in the file's own length unit.
+def _unpacked(path):
+    """A context with the path to a file as it is, or unpacked where its name ends in .gz."""
+    lower = path.lower()
+    if not lower.endswith(".gz") or lower.endswith((".gii.gz", ".nii.gz")):
+        return contextlib.nullcontext(path)
+    return _gunzipped(path)
 
-    `progress` is called with 0 to 1 while the file is read.
 
-    Raises SurfaceError where the file is missing, unreadable, of another format, or holds no
-    polygons or strips.
+@contextlib.contextmanager
+def _gunzipped(path):
+    suffix = os.path.splitext(path[: -len(".gz")])[1]
+    with tempfile.NamedTemporaryFile(suffix=suffix) as copy:
+        try:
+            with gzip.open(path, "rb") as file:
+                shutil.copyfileobj(file, copy)
+        except (OSError, EOFError, zlib.error) as error:
+            raise SurfaceError(
+                f"{path}: could not be unpacked: {error}. Check that the file is whole."
+            ) from error
+        copy.flush()
+        yield copy.name
+
+
+def _read_off(path):
+    """The mesh of an OFF file, which VTK has no reader for: corners, then faces by their numbers."""
+    with open(path, encoding="ascii", errors="replace") as file:
+        words = [word for line in file for word in line.split("#")[0].split()]
+    try:
+        if not words or not words[0].upper().endswith("OFF"):
+            raise ValueError("it does not begin with OFF")
+        points, faces = int(words[1]), int(words[2])
+        at = 4 + 3 * points
+        corners = np.array(words[4:at], float).reshape(points, 3)
+        cells = vtkCellArray()
+        for _ in range(faces):
+            count = int(words[at])
+            ids = [int(word) for word in words[at + 1 : at + 1 + count]]
+            if len(ids) != count:
+                raise ValueError("it ends in the middle of its faces")
+            cells.InsertNextCell(count)
+            for id_ in ids:
+                cells.InsertCellPoint(id_)
+            at += 1 + count
+    except (IndexError, ValueError) as error:
+        raise SurfaceError(
+            f"{path}: could not be read as OFF: {error}. Check that the file is whole; colours of "
+            "corners and faces are not read."
+        ) from error
+    surface = vtkPolyData()
+    vtk_points = vtkPoints()
+    vtk_points.SetData(numpy_to_vtk(corners, deep=True))
+    surface.SetPoints(vtk_points)
+    surface.SetPolys(cells)
+    return surface
+
+
+def _open_reader(path, extension, whole):
+    """A reader for a file whose first bytes are at the path `whole`, or a folder."""
+    if os.path.isdir(path):
+        return volumes.folder_reader(path)
+    reader = READERS[extension]()
+    reader.SetFileName(whole)
+    return reader
+
+
+def read_surface(path, progress=None, contour=None):
+    """The surface in a file of one of FORMATS, gzipped or not, or in a folder with the slices of a
+    DICOM image, as vtkPolyData in the file's own length unit.
+
+    Of what is no surface it is the outside, or where its values are `contour`. `progress` is called
+    with 0 to 1 while the file is read.
+
+    Raises SurfaceError where the file is missing, unreadable, damaged, of another format, or holds
+    no polygons or strips.
     """
-    if not os.path.isfile(path):
+    if not os.path.exists(path):
         raise SurfaceError(f"{path}: there is no such file. Check the path.")
     if not os.access(path, os.R_OK):
         raise SurfaceError(f"{path}: may not be read. Check the file's permissions.")
-    extension = os.path.splitext(path.lower())[1]
-    if extension == ".gii" or path.lower().endswith(".gii.gz"):
+    with _unpacked(path) as unpacked:
+        return _read_unpacked(path, unpacked, progress, contour)
+
+
+def _read_unpacked(path, unpacked, progress, contour):
+    lower = path.lower()
+    packed = lower[: -len(".gz")] if lower.endswith(".gz") else lower
+    extension = "" if os.path.isdir(path) else os.path.splitext(packed)[1]
+    if extension == ".gii":
         return _read_gifti(path)
-    if extension == ".gz":
-        raise SurfaceError(f"{path}: is compressed, which only .gii files may be: gunzip it first.")
-    if extension not in READERS:
+    if not os.path.isdir(path) and extension not in FORMATS:
         raise SurfaceError(
             f"{path}: files of type '{extension}' are not known. "
             f"Convert it to one of {', '.join(FORMATS)}."
         )
-    _refuse_enormous(path)
+    if not os.path.isdir(path):
+        _refuse_enormous(unpacked)
     # VTK 9.6 refuses a binary STL with bytes after its last triangle; some programs write them.
-    surplus = _check_stl_count(path) if extension == ".stl" else 0
-    reader = READERS[extension]()
-    with _without_end(path, surplus) as whole:
-        reader.SetFileName(whole)
-        errors = run_reader(reader, progress)
+    surplus = _check_stl_count(unpacked) if extension == ".stl" else 0
+    with _without_end(unpacked, surplus) as whole:
+
+        def read():
+            if extension == ".off":
+                return _read_off(whole), []
+            reader = _open_reader(path, extension, whole)
+            errors = run_reader(reader, progress)
+            return reader.GetOutputDataObject(0), errors
+
+        if not extension or extension in CRASHING:
+            try:
+                try_apart(lambda: volumes.surface_of(read()[0], contour))
+            except Crashed as error:
+                raise SurfaceError(
+                    f"{path}: is damaged, or of a kind that VTK's reader does not bear: that ended "
+                    f"by '{error}'. Check that the file is whole, that its faces name points that "
+                    "are there, and save it again with the program that made it."
+                ) from error
+        data, errors = read()
     if errors:
         raise SurfaceError(
-            f"{path}: could not be read as {extension[1:].upper()}: {errors[0]} "
+            f"{path}: could not be read as {extension[1:].upper() or 'DICOM'}: {errors[0]} "
             "Check that the file is whole and that its extension is right."
-            + (APPENDED_DATA_HINT if extension == ".vtp" and _has_appended_data(path) else "")
+            + (APPENDED_DATA_HINT if _has_appended_data(path, extension) else "")
         )
-    surface = reader.GetOutput()
+    try:
+        volumes.name_scalars(data)
+        for part in volumes.leaves(data):
+            if part.IsA("vtkPolyData"):
+                volumes.check_cells(part)
+        surface = volumes.surface_of(data, contour)
+    except NoSurfaceError as error:
+        raise SurfaceError(f"{path}: {error}") from error
     if surface.GetNumberOfPolys() + surface.GetNumberOfStrips() == 0:
         raise SurfaceError(
             f"{path}: has no polygons, hence no surface ({surface.GetNumberOfPoints()} points, "

@@ -11,6 +11,7 @@ import time
 import numpy as np
 import vtkmodules.vtkRenderingFreeType  # noqa: F401  (registers the text renderer)
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkDataObject
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 from vtkmodules.vtkInteractionStyle import vtkInteractorStyleTrackballCamera
 from vtkmodules.vtkRenderingCore import (
@@ -19,18 +20,19 @@ from vtkmodules.vtkRenderingCore import (
     vtkRenderer,
     vtkRenderWindow,
     vtkRenderWindowInteractor,
-    vtkTextActor,
 )
 
 import vtkhaptics
 from . import (
+    vtkHapticProperties,
     vtkHapticScene,
     vtkInteractorStyleHaptic,
     vtkMouseHapticDevice,
     vtkSimulatedHapticDevice,
 )
 from .arguments import parse
-from .coloring import TEXT, color_by, other_arrays, scalar_bar
+from .coloring import color_by, other_arrays, scalar_bar
+from .detail import DetailSwitch
 from .display import DisplayError, ensure_display
 from .errors import HapticsError
 from .interrupt import EXIT_INTERRUPTED, Interrupts
@@ -38,6 +40,7 @@ from .picture import (
     BACKGROUND,
     OutputError,
     add_lights,
+    check_writable,
     fill_view,
     save_window,
     smooth_edges,
@@ -73,18 +76,20 @@ class Viewer:
         self.scene = vtkHapticScene()
         self.scene.SetStiffness(options.stiffness)
         self.surfaces = []
+        self.detail = DetailSwitch(self.renderer)
 
     def add_surfaces(self):
         """Reads the files and shows them. Raises SurfaceError."""
         for number, path in enumerate(self.options.surfaces):
             with ProgressBar(f"reading {os.path.basename(path)}") as bar:
-                surface = read_surface(path, bar.show)
+                surface = read_surface(path, bar.show, self.options.contour)
             actor = surface_actor(surface, COLORS[number % len(COLORS)])
             self._color(actor, surface, path)
+            self.detail.add(actor, surface)
             self.renderer.AddActor(actor)
             self.surfaces.append(surface)
             self._touch(surface, actor, os.path.basename(path))
-            print(unit_note(path, surface), flush=True)
+            print(unit_note(path, surface, self.options.unit), flush=True)
 
     def _touch(self, surface, shown, name):
         """Adds a surface to the scene, under an actor that `shown` follows: what is shown has its
@@ -97,6 +102,27 @@ class Viewer:
         id_ = self.scene.AddSurface(touched)
         self.scene.SetSurfaceName(id_, name)
         getattr(self.scene.GetSurfaceFilter(id_), SET_SIDE[self.options.side])()
+        material = self.scene.GetSurfaceProperties(id_)
+        material.SetStaticFriction(self.options.friction)
+        material.SetDynamicFriction(0.8 * self.options.friction)
+        for property_, array in (
+            (vtkHapticProperties.STIFFNESS, self.options.stiffness_array),
+            (vtkHapticProperties.STATIC_FRICTION, self.options.friction_array),
+            (vtkHapticProperties.DYNAMIC_FRICTION, self.options.friction_array),
+        ):
+            if array:
+                self._take_array(id_, surface, name, property_, array)
+
+    def _take_array(self, id_, surface, name, property_, array):
+        for association, data in (
+            (vtkDataObject.FIELD_ASSOCIATION_POINTS, surface.GetPointData()),
+            (vtkDataObject.FIELD_ASSOCIATION_CELLS, surface.GetCellData()),
+        ):
+            if data.HasArray(array):
+                self.scene.SetSurfacePropertyArray(id_, property_, association, array)
+                return
+        known = ", ".join(value_arrays(surface)) or "none"
+        raise SurfaceError(f"{name}: has no array '{array}'. It has: {known}.")
 
     def _color(self, actor, surface, path):
         """Colours an actor by the array that the options ask for."""
@@ -201,23 +227,21 @@ class Viewer:
     @contextlib.contextmanager
     def _build_label(self):
         """Tells in the window how far the surfaces are, where that takes long enough to be read."""
-        text = vtkTextActor()
-        text.GetTextProperty().SetColor(*TEXT)
-        text.GetTextProperty().SetFontSize(18)
-        text.SetPosition(12, 12)
+        overlay = self.style.GetView().GetOverlay()
         began = time.monotonic()
 
         def show(share):
-            words = f"preparing the surfaces: {100 * share:.0f} %"
-            if time.monotonic() - began > PATIENCE and words != text.GetInput():
-                text.SetInput(words)
-                self.renderer.AddActor2D(text)
+            filled = int(20 * share)
+            words = f"preparing the surfaces  [{'#' * filled}{'.' * (20 - filled)}]  {100 * share:.0f} %"
+            if time.monotonic() - began > PATIENCE and words != overlay.GetStatus():
+                overlay.SetStatus(words)
+                self.renderer.ResetCameraClippingRange()
                 self.window.Render()
 
         try:
             yield show
         finally:
-            self.renderer.RemoveActor2D(text)
+            overlay.SetStatus("")
 
     def connect(self):
         """Gives the scene its device. Raises ViewerError, StrokeError."""
@@ -231,6 +255,8 @@ class Viewer:
             if not hasattr(vtkhaptics, "vtkFalconHapticDevice"):
                 raise ViewerError("this build has no driver for the Falcon. Build it with libusb.")
             self.device = vtkhaptics.vtkFalconHapticDevice()
+            if self.options.firmware:
+                self.device.SetFirmwareFile(self.options.firmware)
         else:
             self.device = vtkSimulatedHapticDevice()
         self.scene.SetDevice(self.device)
@@ -239,10 +265,31 @@ class Viewer:
             self._follow(plan.at_depth(0.011)[0])
             self.device.LoopOn()
         elif name in ("mouse", "falcon"):
+            self._wait_for_device()
             if not self.scene.FitWorkspace(camera):
                 raise ViewerError(self.scene.GetErrorMessage())
         else:
             self._follow(read_recording(name))
+
+    def _wait_for_device(self):
+        """Opens the device and says what that waits for: a Falcon has to be homed by hand."""
+        overlay, said = self.style.GetView().GetOverlay(), ""
+        self.device.Open()
+        while not self.device.IsOpen():
+            if self.device.GetState() in (self.device.Faulted, self.device.Closed):
+                raise ViewerError(self.device.GetErrorMessage() or "the device does not open.")
+            if self.device.GetStatusMessage() != said:
+                said = self.device.GetStatusMessage()
+                print(said, flush=True)
+                overlay.SetStatus(said)
+                self.window.Render()
+            if not self.options.offscreen:
+                self.interactor.ProcessEvents()
+                if self.interactor.GetDone():
+                    raise KeyboardInterrupt
+            time.sleep(BUILD_FRAME)
+            self.device.Update()
+        overlay.SetStatus("")
 
     def _follow(self, path):
         if not self.scene.FitWorkspace(path.GetBounds(), self.renderer.GetActiveCamera()):
@@ -260,6 +307,8 @@ class Viewer:
         if not self.scene.Engage():
             raise ViewerError(self.scene.GetErrorMessage())
         self.error, self.finished = None, False
+        # Before the style's own, which it keeps to itself.
+        self.interactor.AddObserver("TimerEvent", self._on_timer, 5.0)
         # Before the style ends the event loop, and with it the window that is to be drawn.
         self.interactor.AddObserver("ExitEvent", self._on_exit, 10.0)
         try:
@@ -268,6 +317,10 @@ class Viewer:
             self.scene.Release()  # where a script has ended the loop, nobody has asked for it
         if self.error:
             raise self.error
+
+    def _on_timer(self, _caller, _event):
+        if self.detail.rest():
+            self.window.Render()
 
     def _on_exit(self, _caller, _event):
         if self.finished:
@@ -309,17 +362,24 @@ class Viewer:
             writer.SetDataModeToBinary()  # see surfaces.py: not every VTK reads appended data
             write_atomically(self.options.trace, self.scene.GetTrace(), writer)
             print(f"trace:   {self.options.trace}")
+        if self.options.landmarks:
+            if not self.scene.GetLandmarks().WriteCSV(self.options.landmarks):
+                raise OutputError(f"{self.options.landmarks}: could not be written.")
+            print(f"landmarks: {self.options.landmarks}")
 
 
 def run(options, interrupts):
     """Shows and touches the surfaces as the options say."""
+    for path in (options.screenshot, options.trace, options.landmarks):
+        if path:
+            check_writable(path)  # not after the session, which would be lost
     viewer = Viewer(options, interrupts)
     viewer.add_surfaces()
     viewer.open()
     if viewer.build():
         viewer.connect()
         viewer.run()
-    elif options.screenshot or options.trace:
+    elif options.screenshot or options.trace or options.landmarks:
         raise ViewerError(
             "the window was closed before the surfaces were ready: no picture and no trace were "
             "written. Leave it open until they are."
