@@ -2,9 +2,12 @@
 
 import vtkmodules.vtkInteractionStyle  # noqa: F401  (registers the interactors)
 import vtkhaptics
-from vtkmodules.vtkFiltersSources import vtkSphereSource
+from vtkmodules.vtkFiltersCore import vtkAppendFilter
+from vtkmodules.vtkFiltersSources import vtkLineSource, vtkSphereSource
 from vtkmodules.vtkRenderingCore import (
+    vtkActor,
     vtkAssembly,
+    vtkDataSetMapper,
     vtkRenderer,
     vtkRenderWindow,
     vtkRenderWindowInteractor,
@@ -71,6 +74,7 @@ def test_refuses_what_cannot_be_touched():
     for nothing, error, told in (
         ("plot", TypeError, "pyvista.Plotter"),
         (plot(), ValueError, "no surface that can be touched"),
+        (vtkRenderer(), TypeError, "vtkRenderWindowInteractor"),
     ):
         try:
             vtkhaptics.enable(nothing)
@@ -80,6 +84,48 @@ def test_refuses_what_cannot_be_touched():
             raise AssertionError(f"{nothing} was taken for a plotter with something to touch")
 
 
+def test_follows_what_is_shown():
+    first, second = ball(), ball()
+    interactor = plot(first)
+    renderer = interactor.GetRenderWindow().GetRenderers().GetFirstRenderer()
+    touch = vtkhaptics.enable(interactor)
+    try:
+        vtkhaptics.enable(interactor)
+    except ValueError as error:
+        assert "already" in str(error), error
+    else:
+        raise AssertionError("two touches on one view")
+    renderer.AddActor(second)
+    renderer.RemoveActor(first)
+    interactor.GetRenderWindow().Render()
+    scene = touch.scene
+    assert scene.GetNumberOfSurfaces() == 1
+    assert scene.GetSurfaceActor(scene.GetSurfaceId(0)) is second
+    touch.disable()
+    vtkhaptics.enable(interactor).disable()
+
+
+def test_touches_the_outside_of_meshes():
+    append, lines = vtkAppendFilter(), vtkLineSource()
+    sphere = vtkSphereSource()
+    sphere.Update()
+    append.SetInputData(sphere.GetOutput())
+    actors = []
+    for source in (append, lines):
+        mapper = vtkDataSetMapper()
+        mapper.SetInputConnection(source.GetOutputPort())
+        actors.append(vtkActor())
+        actors[-1].SetMapper(mapper)
+    actors[0].SetPosition(10.0, 0.0, 0.0)
+    touch = vtkhaptics.enable(plot(*actors))
+    assert touch.scene.GetNumberOfSurfaces() == 1, "no surface is made of lines"
+    assert touch.scene.IntersectRay((10.0, 0.0, 5.0), (0.0, 0.0, -1.0)) is not None
+    assert touch.scene.IntersectRay((0.0, 0.0, 5.0), (0.0, 0.0, -1.0)) is None
+    touch.disable()
+
+
 test_touches_and_leaves_no_trace()
 test_takes_what_can_be_touched()
 test_refuses_what_cannot_be_touched()
+test_follows_what_is_shown()
+test_touches_the_outside_of_meshes()

@@ -1,5 +1,8 @@
 """Lets people touch what a plot shows: ``enable(plotter)`` for PyVista, or for plain VTK."""
 
+from vtkmodules.vtkFiltersGeometry import vtkCompositeDataGeometryFilter, vtkDataSetSurfaceFilter
+from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
+
 from . import vtkHapticScene, vtkInteractorStyleHaptic, vtkMouseHapticDevice
 from .errors import HapticsError
 from .interrupt import EXIT_INTERRUPTED, Interrupts, is_interactive
@@ -18,10 +21,40 @@ class Touch:
         self._style_before = interactor.GetInteractorStyle()
         self._interrupts = Interrupts()
         self._take_interrupts(interactor)
+        self._surfaces = {}  # by prop: the id of its surface, and the actor in its place or None
+        # The props as they come and go, and before each picture what has changed of them.
+        self._observers = [
+            (source, source.AddObserver(event, lambda *_: self.follow()))
+            for source, event in (
+                (self._renderer.GetViewProps(), "ModifiedEvent"), (self._renderer, "StartEvent"))
+        ]
+        # PyVista up to 0.45 calls this on its style when the plot is closed.
+        self.style.remove_observers = self.scene.Release
+        interactor._vtkhaptics_touch = self
 
     def add(self, prop):
-        """Makes an actor or an assembly touchable too; the id of the surface."""
-        return _add(self.scene, prop)
+        """Makes an actor or an assembly touchable, which is followed; the id of the surface. An
+        actor that shows no polydata is touched by the outside of what it shows."""
+        if prop not in self._surfaces:
+            stand_in = None if _shows_polydata(prop) else _outside_actor(prop)
+            id_ = _add(self.scene, stand_in or prop)
+            self._surfaces[prop] = (id_, stand_in)
+        return self._surfaces[prop][0]
+
+    def follow(self):
+        """Takes in what the plot shows now, and only that: each picture calls it."""
+        shown = [prop for prop in self._renderer.GetViewProps() if _can_be_touched(prop)]
+        for prop in shown:
+            if prop not in self._surfaces and prop.GetVisibility() and prop.GetPickable():
+                self.add(prop)
+        present = set(shown)
+        for prop in [prop for prop in self._surfaces if prop not in present]:
+            id_, _ = self._surfaces.pop(prop)
+            self.scene.RemoveSurface(id_)
+        for prop, (_, stand_in) in self._surfaces.items():
+            if stand_in:
+                stand_in.SetVisibility(prop.GetVisibility())
+                stand_in.SetPickable(prop.GetPickable())
 
     def _take_interrupts(self, interactor):
         """Lets Ctrl-C end the event loop, whoever starts it, and after that the program."""
@@ -44,13 +77,17 @@ class Touch:
 
     def disable(self):
         """Lets go: no force, the plot as it was before, and nothing is updated any more."""
+        for source, observer in self._observers:
+            source.RemoveObserver(observer)
         self.scene.Release()
         self.scene.RemoveAllSurfaces()
+        self._surfaces.clear()
         view = self.style.GetView()
         for prop in (view.GetGodObjectActor(), view.GetOverlay()):
             self._renderer.RemoveViewProp(prop)
         self.device.ConnectView(None, None)
         interactor, _ = _view_of(self._plotter)
+        interactor.__dict__.pop("_vtkhaptics_touch", None)
         self._leave_interrupts(interactor)
         if interactor.GetInteractorStyle() is self.style:
             _set_style(self._plotter, self._style_before)
@@ -60,30 +97,29 @@ def enable(plotter, device=None, stiffness=500.0, overlay=True):
     """Makes all that a plotter shows touchable, by the mouse or by another device.
 
     `plotter` is a pyvista.Plotter, or a vtkRenderWindowInteractor with a window. The surfaces are
-    the visible, pickable actors with polydata, and assemblies; what comes later is added with
-    ``touch.add(actor)``. `stiffness` in N/m. Returns a Touch, whose `scene` is the
-    vtkHapticScene. Raises TypeError for anything that is no plotter, and ValueError where there is
-    nothing to touch or the device does not open.
+    what its visible, pickable actors and assemblies show, of volume meshes the outside; what comes,
+    goes or is replaced later is followed at each picture. Of several subplots the active one is
+    touched. `stiffness` in N/m. Returns a Touch, whose `scene` is the vtkHapticScene. Raises
+    TypeError for anything that is no plotter, and ValueError where there is nothing to touch, the
+    device does not open, or the plot is touched already.
     """
-    _, renderer = _view_of(plotter)
+    interactor, renderer = _view_of(plotter)
+    if getattr(interactor, "_vtkhaptics_touch", None):
+        raise ValueError("the plot is touched already. Call disable() of that touch first.")
     scene = vtkHapticScene()
     scene.SetStiffness(stiffness)
-    for prop in renderer.GetViewProps():
-        if prop.GetVisibility() and prop.GetPickable() and _can_be_touched(prop):
-            _add(scene, prop)
-    scene.Update()
     device = device or vtkMouseHapticDevice()
     scene.SetDevice(device)
-    try:
-        scene.FitWorkspace(renderer.GetActiveCamera())
-    except HapticsError as error:
-        raise ValueError(error.text) from error
     style = vtkInteractorStyleHaptic()
     style.SetScene(scene)
     touch = Touch(scene, style, device, plotter)
+    touch.follow()
     try:
+        scene.Update()
+        scene.FitWorkspace(renderer.GetActiveCamera())
         scene.Engage()
     except HapticsError as error:
+        touch.disable()
         raise ValueError(error.text) from error
     renderer.AddViewProp(style.GetView().GetGodObjectActor())
     if overlay:
@@ -96,12 +132,20 @@ def _view_of(plotter):
     """The interactor and the renderer of a plotter. Raises TypeError."""
     interactor = getattr(plotter, "iren", plotter)
     interactor = getattr(interactor, "interactor", interactor)
-    if not hasattr(interactor, "GetRenderWindow") or not interactor.GetRenderWindow():
+    if not (
+        hasattr(interactor, "IsA")
+        and interactor.IsA("vtkRenderWindowInteractor")
+        and interactor.GetRenderWindow()
+    ):
         raise TypeError(
             f"{plotter!r} is no plotter with an interactor. Give a pyvista.Plotter or a "
             "vtkRenderWindowInteractor whose render window is set."
         )
-    return interactor, interactor.GetRenderWindow().GetRenderers().GetFirstRenderer()
+    renderers = interactor.GetRenderWindow().GetRenderers()
+    active = getattr(plotter, "renderer", None)  # of PyVista's subplots
+    if active is not None and renderers.IsItemPresent(active):
+        return interactor, active
+    return interactor, renderers.GetFirstRenderer()
 
 
 def _set_style(plotter, style):
@@ -116,13 +160,41 @@ def _add(scene, prop):
     return scene.AddSurfaceActor(prop) if prop.IsA("vtkActor") else scene.AddSurface(prop)
 
 
-def _can_be_touched(prop):
-    if prop.IsA("vtkAssembly"):
-        return True
+def _data_of(prop):
     # PyVista draws polydata by a vtkDataSetMapper: what the mapper gets decides, not what it is.
     mapper = prop.GetMapper() if prop.IsA("vtkActor") else None
     if not mapper or not mapper.GetNumberOfInputConnections(0):
-        return False
+        return None
     mapper.GetInputAlgorithm().Update()
-    data = mapper.GetInputDataObject(0, 0)
-    return bool(data) and data.IsA("vtkPolyData")
+    return mapper.GetInputDataObject(0, 0)
+
+
+def _shows_polydata(prop):
+    data = _data_of(prop)
+    return prop.IsA("vtkAssembly") or bool(data and data.IsA("vtkPolyData"))
+
+
+def _can_be_touched(prop):
+    if prop.IsA("vtkAssembly"):
+        return True
+    data = _data_of(prop)
+    if not data or not data.IsA("vtkDataSet"):
+        return bool(data) and data.IsA("vtkCompositeDataSet")
+    if data.IsA("vtkPolyData"):  # points and lines have no surface
+        return data.GetNumberOfPolys() + data.GetNumberOfStrips() > 0
+    return data.GetNumberOfCells() > 0
+
+
+def _outside_actor(actor):
+    """An actor of the outside of what another one shows, at its place."""
+    mapper = actor.GetMapper()
+    outside = vtkDataSetSurfaceFilter()
+    if _data_of(actor).IsA("vtkCompositeDataSet"):
+        outside = vtkCompositeDataGeometryFilter()
+    outside.SetInputConnection(mapper.GetInputConnection(0, 0))
+    touched = vtkPolyDataMapper()
+    touched.SetInputConnection(outside.GetOutputPort())
+    stand_in = vtkActor()
+    stand_in.SetMapper(touched)
+    stand_in.SetUserMatrix(actor.GetMatrix())
+    return stand_in
