@@ -3,6 +3,7 @@
 #include "AnalyticSurfaces.h"
 #include "ExactQueries.h"
 #include "haptics/Contact/GodObject.h"
+#include "haptics/Surface/SurfaceMotion.h"
 
 #include <gtest/gtest.h>
 
@@ -302,4 +303,189 @@ TEST(PlainView, ATriangleAsThinAsRoundingHoldsWhatGoesThroughIt)
     }
   }
   EXPECT_GT(aimed, 200);
+}
+
+//    \ | /      triangles that meet in one point, touched from both sides: pressed near it, then
+//    the
+//   o -x-       hand goes away
+TEST(PlainView, APointWhereTrianglesMeetHoldsNothingInTheOpen)
+{
+  int contacts = 0;
+  for (const unsigned seed : { 0u, 1u, 2u })
+  {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal;
+    std::uniform_real_distribution<double> share;
+    const auto anywhere = [&](double size) {
+      return size * Vec3{ normal(random), normal(random), normal(random) };
+    };
+    for (int run = 0; run < 4000; ++run)
+    {
+      const int count = 2 + static_cast<int>(random() % 3);
+      std::vector<double> angles(2 * count);
+      std::generate(angles.begin(), angles.end(), [&] { return 360.0 * Degree * share(random); });
+      std::sort(angles.begin(), angles.end());
+      TriangleMesh mesh;
+      mesh.Points.push_back({ 0, 0, 0 });
+      for (const double angle : angles)
+      {
+        mesh.Points.push_back({ std::cos(angle), std::sin(angle), 0.3 * normal(random) });
+      }
+      const int step = share(random) < 0.5 ? 2 : 1;
+      for (int i = 0; i + 1 < 2 * count; i += step)
+      {
+        mesh.Triangles.push_back({ 0, 1 + i, 2 + i });
+      }
+      const Vec3 away = Unit(anywhere(1.0));
+      const Vec3 path[4] = { 0.5 * away, anywhere(0.02) - 0.05 * away, anywhere(0.1) - 0.1 * away,
+        anywhere(0.3) - 0.05 * away };
+      GodObject god({ MakeSurface(mesh, Side::Both) });
+      for (const Vec3& hip : path)
+      {
+        god.Update(hip);
+        god.Update(hip);
+        if (god.Current().Penetration > 0.02)
+        {
+          ++contacts;
+          EXPECT_FALSE(IsInPlainView(god, hip)) << "seed " << seed << ", run " << run;
+        }
+      }
+    }
+  }
+  EXPECT_GT(contacts, 4000);
+}
+
+//  ___|o|___     a slit in a sheet: its middle is open from ten clearances on, its sides hold
+TEST(PlainView, ASlitInASheetIsOpenFromTenClearancesOn)
+{
+  const double clearance = 1024.0 * 0x1p-53 * std::sqrt(2.0);
+  for (const double width : { 10.0 * clearance, 1e-9, 1e-6, 1e-3, 0.1 })
+  {
+    const auto half = [&](double from, double to)
+    {
+      TriangleMesh mesh;
+      mesh.Points = { { from, -1, 0 }, { to, -1, 0 }, { to, 1, 0 }, { from, 1, 0 } };
+      mesh.Triangles = { { 0, 1, 2 }, { 0, 2, 3 } };
+      return mesh;
+    };
+    const auto sheet = Joined(half(-1.0, -0.5 * width), half(0.5 * width, 1.0));
+    for (const double scale : { 1.0, 1e-6, 1e6 })
+    {
+      GodObject god({ MakeSurface(Scaled(sheet, scale), Side::Both) });
+      for (const double side : { 1.0, -1.0, 1.0 })
+      {
+        EXPECT_EQ(god.Update({ 0, 0.1 * scale, 0.05 * side * scale }).Status, UpdateStatus::Free)
+          << width << ", scale " << scale;
+      }
+      const double beside = 0.5 * width + 0.01;
+      god.Place({ beside * scale, 0.1 * scale, 0.05 * scale });
+      EXPECT_EQ(
+        god.Update({ beside * scale, 0.1 * scale, -0.05 * scale }).Status, UpdateStatus::Touching);
+    }
+  }
+}
+
+//   o x
+//    \|/      a cone's or pyramid's tip, pressed head-on, then the hand goes around it into the
+//    open / \.
+TEST(PlainView, TheTipOfAConeHoldsNothingInTheOpen)
+{
+  for (const int sides : { 3, 4, 7, 100 })
+  {
+    for (const double radius : { 0.001, 0.02, 0.1, 0.5 })
+    {
+      TriangleMesh cone;
+      cone.Points = { { 0, 0, 0.1 }, { 0, 0, 0 } };
+      for (int i = 0; i < sides; ++i)
+      {
+        const double a = 360.0 * Degree * i / sides;
+        cone.Points.push_back({ radius * std::cos(a), radius * std::sin(a), 0 });
+        const int next = 2 + (i + 1) % sides;
+        cone.Triangles.push_back({ 0, 2 + i, next });
+        cone.Triangles.push_back({ 1, next, 2 + i });
+      }
+      for (const Side side : { Side::Front, Side::Both })
+      {
+        GodObject god({ MakeSurface(cone, side) });
+        god.Place({ 0, 0, 0.2 });
+        god.Update({ 0, 0, 0.09 });
+        for (int k = 0; k <= 60; ++k)
+        {
+          const double angle = 3.0 * k * Degree;
+          const Vec3 hip{ 0.01 * std::sin(angle), 0.003 * std::sin(2 * angle),
+            0.1 - 0.01 * std::cos(angle) };
+          god.Update(hip);
+          const Contact& contact = god.Update(hip);
+          EXPECT_TRUE(contact.Penetration < 1e-10 || !IsInPlainView(god, hip))
+            << sides << " sides, radius " << radius << ", step " << k;
+        }
+      }
+    }
+  }
+}
+
+//  --------o->------      exactly in the plane of a sheet: nothing is crossed, so nothing holds;
+//  and
+//                         what has come to rest in the sheet may leave it to either side
+TEST(PlainView, AMotionInATrianglesPlaneCrossesNothing)
+{
+  for (const Side side : { Side::Front, Side::Both })
+  {
+    for (const double leave : { 1.0, -1.0 })
+    {
+      GodObject god({ MakeSurface(Square(1.0), side) });
+      god.Place({ -2, 0.1, 0 });
+      EXPECT_EQ(god.Update({ 2, 0.2, 0 }).Status, UpdateStatus::Free);
+      EXPECT_EQ(god.Update({ 0.3, 0.1, 0 }).Status, UpdateStatus::Free);
+      EXPECT_EQ(god.Current().Position, (Vec3{ 0.3, 0.1, 0 }));
+      const Contact& left = god.Update({ 0.3, 0.1, 0.05 * leave });
+      // One that has a front only is left from it, through its back.
+      const bool isHeld = side == Side::Front && leave < 0.0;
+      EXPECT_EQ(left.Status, isHeld ? UpdateStatus::Touching : UpdateStatus::Free) << leave;
+    }
+  }
+}
+
+//    -> o          the same seam in single precision, and while the parts are carried along
+TEST(PlainView, AFlushSeamThatMovesOrIsStoredInSinglePrecisionIsNotFelt)
+{
+  const auto left = BoxFrom({ -0.02, -0.02, -0.02 }, { 0, 0.02, 0 });
+  const auto right = BoxFrom({ 0, -0.01, -0.02 }, { 0.02, 0.01, 0 });
+  const auto single = [](TriangleMesh mesh)
+  {
+    for (Vec3& p : mesh.Points)
+    {
+      for (double& x : p)
+      {
+        x = static_cast<float>(x + 0.1);
+      }
+    }
+    return mesh;
+  };
+  SurfaceOptions options;
+  options.TouchedSide = Side::Front;
+  options.CrackWidth = 1e-7;
+  std::string error;
+  const Vec3 shift{ 0.1, 0.1, static_cast<float>(0.1) };
+  std::vector<TouchedSurface> still;
+  for (const TriangleMesh& part : { left, right })
+  {
+    still.emplace_back(TriangleSurface::Build(single(part), options, error));
+  }
+  const auto motion = std::make_shared<SurfaceMotion>(RigidPose());
+  GodObject stored(still);
+  GodObject moving({ { MakeSurface(left), motion }, { MakeSurface(right), motion } });
+  stored.Place(shift + Vec3{ -0.014, 0.001, 0.005 });
+  moving.Place({ -0.014, 0.001, 0.005 });
+  for (int i = 0; i <= 560; ++i)
+  {
+    const Vec3 hip{ -0.014 + 5e-5 * i, 0.001, -0.0002 };
+    const Vec3& slid = stored.Update(shift + hip).Displacement;
+    EXPECT_LT(std::hypot(slid[0], slid[1]), 1e-7) << i;
+    const Vec3 by{ 1e-5 * i, 2e-5 * i, -1e-5 * i };
+    motion->MoveTo({ by, { 1, 0, 0, 0 } }, 0.0);
+    moving.Advance(0.001);
+    const Vec3& carried = moving.Update(hip + by).Displacement;
+    EXPECT_LT(std::hypot(carried[0], carried[1]), 1e-9) << i;
+  }
 }
