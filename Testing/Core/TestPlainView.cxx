@@ -424,9 +424,8 @@ TEST(PlainView, TheTipOfAConeHoldsNothingInTheOpen)
   }
 }
 
-//  --------o->------      exactly in the plane of a sheet: nothing is crossed, so nothing holds;
-//  and
-//                         what has come to rest in the sheet may leave it to either side
+//  --------o->------      exactly in the plane of a sheet: nothing is crossed, so nothing holds; and
+//                         what has come to rest in the sheet is in front of it
 TEST(PlainView, AMotionInATrianglesPlaneCrossesNothing)
 {
   for (const Side side : { Side::Front, Side::Both })
@@ -439,8 +438,8 @@ TEST(PlainView, AMotionInATrianglesPlaneCrossesNothing)
       EXPECT_EQ(god.Update({ 0.3, 0.1, 0 }).Status, UpdateStatus::Free);
       EXPECT_EQ(god.Current().Position, (Vec3{ 0.3, 0.1, 0 }));
       const Contact& left = god.Update({ 0.3, 0.1, 0.05 * leave });
-      // One that has a front only is left from it, through its back.
-      const bool isHeld = side == Side::Front && leave < 0.0;
+      // On it is in front of it.
+      const bool isHeld = leave < 0.0;
       EXPECT_EQ(left.Status, isHeld ? UpdateStatus::Touching : UpdateStatus::Free) << leave;
     }
   }

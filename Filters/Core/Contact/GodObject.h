@@ -74,7 +74,7 @@ struct Contact
 /// crossed where both sides are touched. Condition: a gap between facets that do not share corners
 /// is no wider than SurfaceOptions::CrackWidth. A motion exactly in a triangle's plane passes
 /// through neither of its sides and crosses nothing: so a sheet that is met edge on, to the last
-/// bit, does not hold, and a point that comes to rest in a sheet may leave it to either side.
+/// bit, does not hold. A point that comes to rest on a triangle that way counts as in front of it.
 ///
 /// **Nothing holds where nothing is**, the other half: if no facet, from a side that can be touched,
 /// meets the straight way from the god-object to the HIP, nor a cone of a thousandth around it, the
