@@ -1,5 +1,7 @@
 #include "haptics/Filters/PolygonSplitter.h"
 
+#include "haptics/Math/Vec3Operations.h"
+
 #include <cmath>
 #include <utility>
 
@@ -21,16 +23,6 @@ int SignOfDifference(double a, double b, double c, double d)
   const double cdRest = std::fma(c, d, -cd);
   const double difference = (ab - cd) + (abRest - cdRest);
   return (difference > 0.0) - (difference < 0.0);
-}
-
-Vec3 Minus(const Vec3& a, const Vec3& b)
-{
-  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
-}
-
-Vec3 Cross(const Vec3& a, const Vec3& b)
-{
-  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
 }
 
 double SquaredNorm(const Vec3& a)

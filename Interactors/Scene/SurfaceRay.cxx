@@ -1,5 +1,6 @@
 #include "haptics/Scene/SurfaceRay.h"
 
+#include "haptics/Math/Vec3Operations.h"
 #include "vtkMath.h"
 
 #include <algorithm>
@@ -11,28 +12,6 @@ namespace haptics
 {
 namespace
 {
-Vec3 Minus(const Vec3& a, const Vec3& b)
-{
-  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
-}
-
-Vec3 Along(const Vec3& from, const Vec3& direction, double t)
-{
-  return { from[0] + t * direction[0], from[1] + t * direction[1], from[2] + t * direction[2] };
-}
-
-double Dot(const Vec3& a, const Vec3& b)
-{
-  return vtkMath::Dot(a.data(), b.data());
-}
-
-Vec3 Cross(const Vec3& a, const Vec3& b)
-{
-  Vec3 result;
-  vtkMath::Cross(a.data(), b.data(), result.data());
-  return result;
-}
-
 /// The part of the ray inside the ball around the local origin; false where it misses it.
 bool ClipToBall(const Vec3& from, const Vec3& direction, double radius, double& begin, double& end)
 {
@@ -91,8 +70,7 @@ std::optional<RayHit> CastRay(
   TriangleList found;
   found.Indices = candidates.data();
   found.Capacity = static_cast<std::int32_t>(candidates.size());
-  surface.Engine().FindOnSegment(
-    Along(local, direction, begin), Along(local, direction, end), found);
+  surface.Engine().FindOnSegment(Sum(local, begin, direction), Sum(local, end, direction), found);
   if (found.Overflow)
   {
     candidates.resize(static_cast<std::size_t>(count));
@@ -111,7 +89,7 @@ std::optional<RayHit> CastRay(
     if (t && (!nearest || *t < nearest->Distance))
     {
       const Vec3 normal = Cross(Minus(corner(1), corner(0)), Minus(corner(2), corner(0)));
-      nearest = RayHit{ *t, Dot(normal, direction) > 0.0 ? Along({}, normal, -1.0) : normal };
+      nearest = RayHit{ *t, Dot(normal, direction) > 0.0 ? Sum({}, -1.0, normal) : normal };
     }
   }
   if (nearest)

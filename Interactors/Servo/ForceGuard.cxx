@@ -1,5 +1,7 @@
 #include "haptics/Servo/ForceGuard.h"
 
+#include "haptics/Math/Vec3Operations.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,22 +10,6 @@ namespace haptics
 {
 namespace
 {
-double Dot(const Vec3& a, const Vec3& b) noexcept
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-double Length(const Vec3& v) noexcept
-{
-  return std::hypot(v[0], v[1], v[2]);
-}
-
-/// a + s b
-Vec3 Sum(const Vec3& a, double s, const Vec3& b) noexcept
-{
-  return { a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2] };
-}
-
 // An encoder's steps divided by a millisecond are not a velocity; so much [s] makes one of them.
 constexpr double SpeedSmoothing = 0.005;
 // What desktop devices can damp without shaking [N s/m]: Touch 4, Premium 5, Falcon 20.

@@ -1,5 +1,7 @@
 #include "haptics/Servo/SlewLimiter.h"
 
+#include "haptics/Math/Vec3Operations.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,17 +9,6 @@ namespace haptics
 {
 namespace
 {
-double Dot(const Vec3& a, const Vec3& b) noexcept
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-/// a + s b
-Vec3 Sum(const Vec3& a, double s, const Vec3& b) noexcept
-{
-  return { a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2] };
-}
-
 /// A hand is at rest if it was so for some 35 ticks: a swing turns in fewer.
 constexpr double MotionKept = 0.98;
 
