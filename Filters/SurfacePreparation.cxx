@@ -22,6 +22,11 @@ namespace haptics
 {
 namespace
 {
+/// From this share on triangles without area are told of.
+constexpr double LeastShareOfCollapsed = 0.01;
+/// Coordinates this many sizes of a surface away from the origin have lost digits.
+constexpr double FarFromOrigin = 100.0;
+
 vtkSmartPointer<vtkIdTypeArray> MakeIdArray(const char* name, const std::vector<vtkIdType>& ids)
 {
   auto array = vtkSmartPointer<vtkIdTypeArray>::New();
@@ -345,6 +350,36 @@ bool SurfacePreparation::MovePoints(std::vector<Vec3>& points) const
   return true;
 }
 
+/// Tells where single precision has made triangles fall together.
+void SurfacePreparation::AddCollapseWarning(const CleanedMesh& cleaned)
+{
+  if (this->Input->GetPoints()->GetDataType() != VTK_FLOAT)
+  {
+    return;
+  }
+  const std::int64_t lost = cleaned.Report.DegenerateTriangles;
+  const auto kept = static_cast<std::int64_t>(cleaned.Mesh.Triangles.size());
+  double bounds[6];
+  this->Input->GetPoints()->GetBounds(bounds);
+  const double size =
+    std::max({ bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4] });
+  // A surface around the origin has triangles without area for reasons of its own.
+  if (lost < LeastShareOfCollapsed * static_cast<double>(lost + kept) ||
+    cleaned.LargestCoordinate < FarFromOrigin * size)
+  {
+    return;
+  }
+  std::ostringstream text;
+  text
+    << (this->WarningText.empty() ? "" : " ") << lost << " of " << lost + kept
+    << " triangles have no area: the points are of single precision (float32), and at coordinates "
+       "up to "
+    << cleaned.LargestCoordinate << " such numbers are " << 0x1p-23 * cleaned.LargestCoordinate
+    << " apart. Read the points as float64, or subtract an offset where they still are (the "
+       "readers of PLY and of ASCII STL give float32 whatever the file has).";
+  this->WarningText += text.str();
+}
+
 CleaningResult SurfacePreparation::Run(const ProgressCall& progress)
 {
   CleanedMesh cleaned;
@@ -364,6 +399,7 @@ CleaningResult SurfacePreparation::Run(const ProgressCall& progress)
       ". They were split into fans, which may not feel as they look.";
   }
   const int dataType = this->Input->GetPoints()->GetDataType();
+  this->AddCollapseWarning(cleaned);
   this->Found = cleaned.Report;
   this->MergedWithin = cleaned.MergedWithin;
   this->Kept = std::make_shared<const std::vector<std::int32_t>>(std::move(cleaned.KeptPoint));

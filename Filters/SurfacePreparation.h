@@ -108,6 +108,7 @@ private:
     Other
   };
   void ReadSides();
+  void AddCollapseWarning(const CleanedMesh& cleaned);
   int FillPoints(vtkPolyData* input, vtkPolyData* output) const;
   bool HasSameCells() const;
   bool MovePoints(std::vector<Vec3>& points) const;

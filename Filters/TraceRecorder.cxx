@@ -3,6 +3,8 @@
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationStringKey.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -16,11 +18,21 @@ namespace haptics
 {
 namespace
 {
+/// A dimensionless array has none; that of a length is not known here.
+void SetUnit(vtkDataArray* array, const char* unit)
+{
+  if (unit)
+  {
+    array->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), unit);
+  }
+}
+
 template <class Array, class Value>
 void AddScalar(vtkPolyData* trace, const char* name, const std::vector<TraceTick>& ticks,
-  Value TraceTick::*member)
+  Value TraceTick::*member, const char* unit)
 {
   vtkNew<Array> array;
+  SetUnit(array, unit);
   array->SetName(name);
   array->SetNumberOfTuples(static_cast<vtkIdType>(ticks.size()));
   vtkIdType i = 0;
@@ -32,9 +44,10 @@ void AddScalar(vtkPolyData* trace, const char* name, const std::vector<TraceTick
 }
 
 vtkSmartPointer<vtkDoubleArray> Vectors(
-  const char* name, const std::vector<TraceTick>& ticks, Vec3 TraceTick::*member)
+  const char* name, const std::vector<TraceTick>& ticks, Vec3 TraceTick::*member, const char* unit)
 {
   auto array = vtkSmartPointer<vtkDoubleArray>::New();
+  SetUnit(array, unit);
   array->SetName(name);
   array->SetNumberOfComponents(3);
   array->SetNumberOfTuples(static_cast<vtkIdType>(ticks.size()));
@@ -52,6 +65,8 @@ TraceTick::TraceTick(const TickRecord& record, std::int32_t surface, std::int64_
   , Hip(record.Hip)
   , GodObject(record.Position)
   , Force(record.WorldForce)
+  , Normal(record.NumberOfConstraints > 0 ? record.Constraints[0].Normal : Vec3{})
+  , Weights(record.Weights)
   , Penetration(record.Penetration)
   , Stiffness(record.Stiffness)
   , Energy(record.Energy)
@@ -67,7 +82,7 @@ void TraceRecorder::Write(vtkPolyData* trace) const
   trace->Initialize();
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
-  points->SetData(Vectors("GodObject", this->Ticks, &TraceTick::GodObject));
+  points->SetData(Vectors("GodObject", this->Ticks, &TraceTick::GodObject, nullptr));
   trace->SetPoints(points);
   if (!this->Ticks.empty())
   {
@@ -77,15 +92,19 @@ void TraceRecorder::Write(vtkPolyData* trace) const
     lines->InsertNextCell(static_cast<vtkIdType>(line.size()), line.data());
     this->Ticks.size() > 1 ? trace->SetLines(lines) : trace->SetVerts(lines);
   }
-  AddScalar<vtkDoubleArray>(trace, "Time", this->Ticks, &TraceTick::Time);
-  trace->GetPointData()->AddArray(Vectors("HapticInterfacePoint", this->Ticks, &TraceTick::Hip));
-  trace->GetPointData()->AddArray(Vectors("Force", this->Ticks, &TraceTick::Force));
-  AddScalar<vtkIntArray>(trace, "ActiveConstraints", this->Ticks, &TraceTick::ActiveConstraints);
-  AddScalar<vtkIntArray>(trace, "Surface", this->Ticks, &TraceTick::Surface);
-  AddScalar<vtkIdTypeArray>(trace, "OriginalCellId", this->Ticks, &TraceTick::Cell);
-  AddScalar<vtkDoubleArray>(trace, "Penetration", this->Ticks, &TraceTick::Penetration);
-  AddScalar<vtkDoubleArray>(trace, "Stiffness", this->Ticks, &TraceTick::Stiffness);
-  AddScalar<vtkDoubleArray>(trace, "Energy", this->Ticks, &TraceTick::Energy);
-  AddScalar<vtkDoubleArray>(trace, "EnergyTank", this->Ticks, &TraceTick::Tank);
+  vtkPointData* const data = trace->GetPointData();
+  AddScalar<vtkDoubleArray>(trace, "Time", this->Ticks, &TraceTick::Time, "s");
+  data->AddArray(Vectors("HapticInterfacePoint", this->Ticks, &TraceTick::Hip, nullptr));
+  data->AddArray(Vectors("Force", this->Ticks, &TraceTick::Force, "N"));
+  data->AddArray(Vectors("Normal", this->Ticks, &TraceTick::Normal, nullptr));
+  AddScalar<vtkIntArray>(
+    trace, "ActiveConstraints", this->Ticks, &TraceTick::ActiveConstraints, nullptr);
+  AddScalar<vtkIntArray>(trace, "Surface", this->Ticks, &TraceTick::Surface, nullptr);
+  AddScalar<vtkIdTypeArray>(trace, "OriginalCellId", this->Ticks, &TraceTick::Cell, nullptr);
+  data->AddArray(Vectors("BarycentricWeights", this->Ticks, &TraceTick::Weights, nullptr));
+  AddScalar<vtkDoubleArray>(trace, "Penetration", this->Ticks, &TraceTick::Penetration, nullptr);
+  AddScalar<vtkDoubleArray>(trace, "Stiffness", this->Ticks, &TraceTick::Stiffness, "N/m");
+  AddScalar<vtkDoubleArray>(trace, "Energy", this->Ticks, &TraceTick::Energy, "J");
+  AddScalar<vtkDoubleArray>(trace, "EnergyTank", this->Ticks, &TraceTick::Tank, "J");
 }
 }

@@ -19,7 +19,9 @@ struct TraceTick
   double Time = 0.0; ///< [s] since the first tick
   Vec3 Hip{};
   Vec3 GodObject{};
-  Vec3 Force{}; ///< on the hand [N], the world's axes
+  Vec3 Force{};   ///< on the hand [N], the world's axes
+  Vec3 Normal{};  ///< unit, of the surface, towards the god-object; 0 in free space
+  Vec3 Weights{}; ///< see TickRecord
   double Penetration = 0.0;
   double Stiffness = 0.0; ///< in effect [N/m]
   double Energy = 0.0;    ///< what the hand has put in since the first tick and not got out [J]
@@ -32,7 +34,7 @@ struct TraceTick
   /// `surface` and `cell`: what the record's first constraint belongs to, -1 for none.
   TraceTick(const TickRecord& record, std::int32_t surface, std::int64_t cell);
 };
-static_assert(sizeof(TraceTick) <= 144, "vtkHapticScene documents 144 bytes a tick");
+static_assert(sizeof(TraceTick) <= 192, "vtkHapticScene documents 192 bytes a tick");
 
 /// @brief Keeps the ticks of a trace and makes a polyline of them: the one place that names a
 /// trace's arrays. GUI thread.

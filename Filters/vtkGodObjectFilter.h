@@ -55,7 +55,7 @@
 
 #ifndef __VTK_WRAP__
 #include "haptics/Filters/SurfacePreparation.h" // for haptics::SurfacePreparation
-#include "haptics/Material/SurfaceProperties.h"  // for haptics::SurfaceProperties
+#include "haptics/Material/SurfaceProperties.h" // for haptics::SurfaceProperties
 #include "haptics/Surface/TriangleSurface.h"    // for haptics::TriangleSurface
 
 #include <memory> // for std::shared_ptr

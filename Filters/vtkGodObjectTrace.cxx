@@ -2,6 +2,7 @@
 
 #include "haptics/Filters/ErrorText.h"
 #include "haptics/Filters/NumberSetting.h"
+#include "haptics/Filters/TouchedArrays.h"
 #include "haptics/Filters/TraceRecorder.h"
 #include "vtkGodObjectFilter.h"
 #include "vtkHapticProperties.h"
@@ -25,6 +26,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace
 {
@@ -75,6 +77,24 @@ void vtkGodObjectTrace::SetWorldToDeviceScale(double value)
 void vtkGodObjectTrace::SetTickPeriod(double value)
 {
   haptics::SetNumber(this, "TickPeriod", this->TickPeriod, value, 1e-6, 1.0);
+}
+
+void vtkGodObjectTrace::AddSurfaceArray(const char* name)
+{
+  if (name && *name)
+  {
+    this->SurfaceArrays.emplace_back(name);
+    this->Modified();
+  }
+}
+
+void vtkGodObjectTrace::ClearSurfaceArrays()
+{
+  if (!this->SurfaceArrays.empty())
+  {
+    this->SurfaceArrays.clear();
+    this->Modified();
+  }
 }
 
 int vtkGodObjectTrace::FillInputPortInformation(int port, vtkInformation* info)
@@ -150,7 +170,7 @@ vtkGodObjectFilter* vtkGodObjectTrace::PrepareSurface(vtkPolyData* surface)
   }
   // Only points and cells where no property reads more: the filter inside must not copy data that
   // nobody will look at.
-  bool needsData = this->GetProperties()->GetTextureImage() != nullptr;
+  bool needsData = this->PassSurfaceArrays || this->GetProperties()->GetTextureImage() != nullptr;
   for (int i = 0; i <= vtkGodObjectFilter::SIDE_ARRAY; ++i) // the properties' arrays come first
   {
     vtkInformation* const chosen = this->GetInputArrayInformation(i);
@@ -242,6 +262,15 @@ void vtkGodObjectTrace::Replay(vtkPolyData* path, vtkGodObjectFilter* prepared, 
   haptics::TickRecord record;
   haptics::TraceRecorder recorder;
   recorder.Reserve(ticks);
+  std::optional<haptics::TouchedArrays> touched;
+  if (this->PassSurfaceArrays)
+  {
+    touched.emplace(prepared->GetOutput(), this->SurfaceArrays, ticks);
+    for (const std::string& name : touched->Missing())
+    {
+      vtkWarningMacro(<< "The surface has no array " << name << " for the trace.");
+    }
+  }
   vtkIdType heldTicks = 0;
   vtkIdType refusedTicks = 0;
   for (vtkIdType i = 0; i < ticks; ++i)
@@ -264,6 +293,10 @@ void vtkGodObjectTrace::Replay(vtkPolyData* path, vtkGodObjectFilter* prepared, 
     heldTicks += record.Status == haptics::UpdateStatus::Overloaded ? 1 : 0;
     refusedTicks += record.Status == haptics::UpdateStatus::InvalidHip ? 1 : 0;
     const bool isHeld = record.NumberOfConstraints > 0;
+    if (touched)
+    {
+      touched->Add(i, isHeld ? record.Constraints[0].Triangle : -1, record.Weights);
+    }
     recorder.Add({ record, isHeld ? 0 : -1,
       isHeld ? originalCells->GetValue(record.Constraints[0].Triangle) : -1 });
   }
@@ -291,6 +324,10 @@ void vtkGodObjectTrace::Replay(vtkPolyData* path, vtkGodObjectFilter* prepared, 
   {
     output->GetPointData()->AddArray(found->GetAbstractArray(i));
   }
+  if (touched)
+  {
+    touched->AddTo(output->GetPointData());
+  }
   this->UpdateProgress(1.0);
 }
 
@@ -301,6 +338,11 @@ void vtkGodObjectTrace::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MaximumForce: " << this->MaximumForce << " N\n";
   os << indent << "WorldToDeviceScale: " << this->WorldToDeviceScale << " m\n";
   os << indent << "TickPeriod: " << this->TickPeriod << " s\n";
-  os << indent << "Preparation:\n";
+  os << indent << "PassSurfaceArrays: " << (this->PassSurfaceArrays ? "On" : "Off");
+  for (const std::string& name : this->SurfaceArrays)
+  {
+    os << " " << name;
+  }
+  os << "\n" << indent << "Preparation:\n";
   this->Preparation->PrintSelf(os, indent.GetNextIndent());
 }

@@ -20,11 +20,19 @@
  * - `Surface`: 0, and -1 in free space;
  * - `OriginalCellId`: the cell touched, -1 in free space. Of several, the one that pushes most. It
  *   counts the cells of port 1, or of the input of the vtkGodObjectFilter that port 1 comes from;
+ * - `BarycentricWeights` (3): of the corners of the triangle that pushes most, 0 in free space;
+ * - `Normal` (3): unit, of that surface, towards the god-object, 0 in free space;
  * - `Penetration`: distance from HIP to god-object [world unit];
  * - `Stiffness`: in effect [N/m], of the spring or of the surface where it has properties;
  * - `Energy`: what the hand has put in since the first HIP and not got out [J], with the force held
  *   from one HIP to the next;
- * - `EnergyTank`: what a surface with properties may still spend [J]; see haptics::SurfaceForce.
+ * - `EnergyTank`: what a surface with properties may still spend [J]; see haptics::SurfaceForce;
+ * - every point and cell array of the surface, as it is where the god-object touches, NaN in free
+ *   space (0 for whole numbers): see AddSurfaceArray(). One whose name is taken by those above, or
+ *   by the path, comes as `Surface` and its name.
+ *
+ * Arrays have their unit in their information, as vtkDataArray::UNITS_LABEL(), but for lengths in
+ * the world unit, which nobody here knows.
  *
  * The first HIP is taken as free space, whichever side of the surface it lies on. The same inputs
  * give the same output, bit for bit.
@@ -47,6 +55,7 @@
 #include "vtkPolyDataAlgorithm.h"
 
 #include <string> // for std::string
+#include <vector> // for std::vector
 
 class vtkGodObjectFilter;
 class vtkHapticProperties;
@@ -102,6 +111,19 @@ public:
   vtkGetMacro(TickPeriod, double);
   ///@}
 
+  ///@{
+  /**
+   * @brief Which of the surface's point and cell arrays the trace has: by default all, which
+   * PassSurfaceArraysOff() turns off; those of the names added here, where there are any. A name
+   * that no array has is a warning.
+   */
+  vtkSetMacro(PassSurfaceArrays, bool);
+  vtkGetMacro(PassSurfaceArrays, bool);
+  vtkBooleanMacro(PassSurfaceArrays, bool);
+  void AddSurfaceArray(const char* name);
+  void ClearSurfaceArrays();
+  ///@}
+
   /**
    * @brief How a surface feels that does not come from a vtkGodObjectFilter; one that does has that
    * filter's properties. Never null; none by default. The arrays that it maps are those of port 1,
@@ -143,6 +165,8 @@ private:
   double MaximumForce = 3.3;
   double WorldToDeviceScale = 1.0;
   double TickPeriod = 0.001;
+  bool PassSurfaceArrays = true;
+  std::vector<std::string> SurfaceArrays; // empty: all
 };
 
 #endif

@@ -17,7 +17,7 @@
  * before stays in force. What the servo reports is an error of the scene too, so that who observes
  * the scene hears of it.
  *
- * Memory: a snapshot of each surface, and while recording 144 bytes a tick up to
+ * Memory: a snapshot of each surface, and while recording 192 bytes a tick up to
  * MaximumTraceTicks.
  *
  * Every method is for the GUI thread.
@@ -378,7 +378,7 @@ public:
   ///@}
 
   ///@{
-  /** Ticks that a trace holds at most. Default 600,000 (ten minutes at 1 kHz, 86 MB); >= 1. */
+  /** Ticks that a trace holds at most. Default 600,000 (ten minutes at 1 kHz, 115 MB); >= 1. */
   vtkSetClampMacro(MaximumTraceTicks, vtkIdType, 1, VTK_ID_MAX);
   vtkGetMacro(MaximumTraceTicks, vtkIdType);
   ///@}

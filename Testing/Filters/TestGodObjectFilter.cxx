@@ -351,3 +351,49 @@ TEST(GodObjectFilter, LeavesOutArraysThatAreTooShort)
   EXPECT_NE(messages.Warnings(), "");
   EXPECT_TRUE(filter->GetSurface());
 }
+
+// A terrain of 2 m at UTM coordinates, in the single precision of a reader.
+TEST(GodObjectFilter, TellsOfTrianglesThatSinglePrecisionHasCollapsed)
+{
+  const int n = 20;
+  for (const bool isSingle : { true, false })
+  {
+    vtkNew<vtkPoints> points;
+    points->SetDataType(isSingle ? VTK_FLOAT : VTK_DOUBLE);
+    vtkNew<vtkCellArray> cells;
+    for (vtkIdType i = 0; i < n * n; ++i)
+    {
+      points->InsertNextPoint(540169.0 + 0.1 * static_cast<double>(i % n),
+        5094171.2 + 0.1 * static_cast<double>(i / n), 2316.6);
+    }
+    for (vtkIdType i = 0; i + n + 1 < n * n; ++i)
+    {
+      if (i % n + 1 < n)
+      {
+        cells->InsertNextCell({ i, i + 1, i + n + 1, i + n });
+      }
+    }
+    vtkNew<vtkPolyData> terrain;
+    terrain->SetPoints(points);
+    terrain->SetPolys(cells);
+    vtkNew<vtkGodObjectFilter> filter;
+    MessageCatcher messages(filter);
+    filter->SetInputData(terrain);
+    filter->Update();
+    EXPECT_EQ(messages.Errors(), "");
+    const std::string lost = std::to_string(filter->GetNumberOfDegenerateTriangles()) + " of ";
+    EXPECT_EQ(messages.Warnings().find(lost) != std::string::npos, isSingle) << messages.Warnings();
+    EXPECT_EQ(messages.Warnings().find("float64") != std::string::npos, isSingle);
+    // The way out that is told of: an offset, subtracted where the points still are float64.
+    for (vtkIdType i = 0; isSingle && i < n * n; ++i)
+    {
+      points->SetPoint(
+        i, 0.1 * static_cast<double>(i % n), 0.1 * static_cast<double>(i / n), 2316.6);
+    }
+    points->Modified();
+    MessageCatcher after(filter);
+    filter->Update();
+    EXPECT_EQ(after.Warnings(), "");
+    EXPECT_EQ(filter->GetNumberOfDegenerateTriangles(), 0);
+  }
+}

@@ -5,6 +5,9 @@
 #include "vtkDoubleArray.h"
 #include "vtkGodObjectFilter.h"
 #include "vtkGodObjectTrace.h"
+#include "vtkInformation.h"
+#include "vtkInformationStringKey.h"
+#include "vtkIntArray.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -324,4 +327,72 @@ TEST(GodObjectTrace, RefusesASurfaceThatCannotBeTouched)
   const auto noSurface = Path({ { 0, 0, 0 } });
   ExpectRefused(Path({ { 0, 0, 1 } }), noSurface, "surface at port 1 cannot be touched");
   ExpectRefused(Path({ { 0, 0, 1 } }), noSurface, "no polygon");
+}
+
+TEST(GodObjectTrace, CarriesWhatIsTouched)
+{
+  auto plane = Plane();
+  vtkNew<vtkDoubleArray> heat; // 1 + x + 2 y, which is linear: interpolated exactly
+  heat->SetName("Heat");
+  vtkNew<vtkIntArray> part;
+  part->SetName("Part");
+  vtkNew<vtkDoubleArray> force; // a name that the trace has itself
+  force->SetName("Force");
+  for (vtkIdType i = 0; i < 4; ++i)
+  {
+    double p[3];
+    plane->GetPoint(i, p);
+    heat->InsertNextValue(1.0 + p[0] + 2.0 * p[1]);
+    force->InsertNextValue(7.0);
+  }
+  part->InsertNextValue(10);
+  part->InsertNextValue(20);
+  plane->GetPointData()->AddArray(heat);
+  plane->GetPointData()->AddArray(force);
+  plane->GetCellData()->AddArray(part);
+  std::vector<Point> positions{ { 0.5, -0.5, 0.1 } };
+  AddLine(positions, { 0.5, -0.5, -0.002 }, { -0.3, 0.7, -0.002 }, 50);
+  vtkNew<vtkGodObjectTrace> trace;
+  trace->SetInputData(Path(positions));
+  trace->SetSurfaceData(plane);
+  trace->Update();
+  vtkPolyData* output = trace->GetOutput();
+  EXPECT_TRUE(std::isnan(Value(output, "Heat", 0))) << "in free space";
+  EXPECT_EQ(Value(output, "Part", 0), 0);
+  EXPECT_EQ(Tuple(output, "BarycentricWeights", 0), (Point{ 0, 0, 0 }));
+  EXPECT_EQ(Tuple(output, "Normal", 0), (Point{ 0, 0, 0 }));
+  for (vtkIdType i = 1; i < output->GetNumberOfPoints(); ++i)
+  {
+    Point god;
+    output->GetPoint(i, god.data());
+    EXPECT_NEAR(Value(output, "Heat", i), 1.0 + god[0] + 2.0 * god[1], 1e-6) << i;
+    EXPECT_EQ(Value(output, "Part", i), 10 + 10 * Value(output, "OriginalCellId", i)) << i;
+    EXPECT_NEAR(Value(output, "SurfaceForce", i), 7.0, 1e-12);
+    EXPECT_EQ(Tuple(output, "Normal", i), (Point{ 0, 0, 1 }));
+    const Point weights = Tuple(output, "BarycentricWeights", i);
+    EXPECT_NEAR(weights[0] + weights[1] + weights[2], 1.0, 1e-12);
+  }
+  vtkPointData* data = output->GetPointData();
+  EXPECT_EQ(data->GetArray("Force")->GetNumberOfComponents(), 3);
+  const auto unit = [data](const char* name)
+  {
+    const char* text = data->GetArray(name)->GetInformation()->Get(vtkDataArray::UNITS_LABEL());
+    return std::string(text ? text : "");
+  };
+  EXPECT_EQ(unit("Force"), "N");
+  EXPECT_EQ(unit("Stiffness"), "N/m");
+  EXPECT_EQ(unit("Energy"), "J");
+  EXPECT_EQ(unit("Time"), "s");
+
+  trace->AddSurfaceArray("Part");
+  trace->Update();
+  EXPECT_FALSE(trace->GetOutput()->GetPointData()->HasArray("Heat"));
+  EXPECT_TRUE(trace->GetOutput()->GetPointData()->HasArray("Part"));
+  trace->AddSurfaceArray("Pressure");
+  MessageCatcher messages(trace);
+  trace->Update();
+  EXPECT_NE(messages.Warnings().find("Pressure"), std::string::npos) << messages.Warnings();
+  trace->PassSurfaceArraysOff();
+  trace->Update();
+  EXPECT_FALSE(trace->GetOutput()->GetPointData()->HasArray("Part"));
 }

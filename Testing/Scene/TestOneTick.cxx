@@ -121,6 +121,7 @@ vtkSmartPointer<vtkPolyData> TraceOf(const TickScene& scene, double scale)
   vtkNew<vtkGodObjectTrace> trace;
   trace->SetInputData(path);
   trace->SetSurfaceData(scene.Surface);
+  trace->PassSurfaceArraysOff(); // what a scene has none of unless it is asked
   trace->SetWorldToDeviceScale(1.0 / scale);
   scene.SetProperties(trace->GetProperties());
   trace->Update();

@@ -4,6 +4,26 @@
 
 namespace haptics
 {
+namespace
+{
+/// The barycentric weights of where a point falls on a triangle's plane, kept within the triangle:
+/// a god-object stands over it, or beyond an edge by a clearance.
+Vec3 WeightsIn(
+  const TriangleSurface& surface, const Triangle& triangle, double fraction, const Vec3& local)
+{
+  const Vector a = ToVector(surface.PointAt(triangle[0], fraction));
+  const Vector b = ToVector(surface.PointAt(triangle[1], fraction));
+  const Vector c = ToVector(surface.PointAt(triangle[2], fraction));
+  const Vector p = ToVector(local);
+  const Vector normal = glm::cross(b - a, c - a);
+  const Vector areas{ glm::dot(normal, glm::cross(c - b, p - b)),
+    glm::dot(normal, glm::cross(a - c, p - c)), glm::dot(normal, glm::cross(b - a, p - a)) };
+  const Vector weights = glm::max(areas, Vector(0.0));
+  const double sum = weights[0] + weights[1] + weights[2];
+  return sum > 0.0 ? ToVec3(weights / sum) : Vec3{ 1.0, 0.0, 0.0 };
+}
+}
+
 const Contact& ContactTick::Touch(GodObject& god, const Vec3& devicePosition, const Vec3& hip,
   const WorkspaceTransform& deviceToWorld) noexcept
 {
@@ -66,8 +86,17 @@ void ContactTick::Record(
   record.WorldForce = this->DeviceToWorld.DirectionToWorld(force);
   if (record.NumberOfConstraints > 0)
   {
+    const Constraint& strongest = record.Constraints[0];
     record.Local = god.LocalPosition(record.Constraints[0].Surface);
     record.DeformFraction = god.DeformFraction(record.Constraints[0].Surface);
+    const TriangleSurface& surface =
+      *god.Surfaces()[static_cast<std::size_t>(strongest.Surface)].Surface;
+    const Triangle& triangle = surface.Triangles()[static_cast<std::size_t>(strongest.Triangle)];
+    record.Weights = WeightsIn(surface, triangle, record.DeformFraction, record.Local);
+  }
+  else
+  {
+    record.Weights = {};
   }
   record.Stiffness = law.GetStiffness();
   record.Energy = this->Work;

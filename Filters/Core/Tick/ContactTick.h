@@ -32,8 +32,8 @@ public:
     const WorkspaceTransform& deviceToWorld) noexcept;
 
   /// The same of a god-object that stays where it is, with a device that may be anywhere.
-  const Contact& Hold(GodObject& god, const Vec3& devicePosition,
-    const WorkspaceTransform& deviceToWorld) noexcept;
+  const Contact& Hold(
+    GodObject& god, const Vec3& devicePosition, const WorkspaceTransform& deviceToWorld) noexcept;
 
   /// Writes what became of that contact: all of a record but Tick, Time, Buttons, Generation and
   /// Limits. `force`: the one that is held until the next tick, device frame [N]; `law`: what it

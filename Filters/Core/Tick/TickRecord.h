@@ -24,6 +24,9 @@ struct TickRecord : Contact
   /// The god-object in the frame of the first constraint's surface, relative to that snapshot's
   /// Origin(); surfaces move, this stays with them.
   Vec3 Local{};
+  /// How much each corner of the first constraint's triangle counts there: >= 0, sum 1; 0 in free
+  /// space.
+  Vec3 Weights{};
   double DeformFraction = 1.0; ///< of that snapshot, see TriangleSurface::PointAt()
   /// Which published god-object the constraints' surface indices belong to; 0: none yet.
   std::uint64_t Generation = 0;
