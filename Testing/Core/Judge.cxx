@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace haptics::testing
 {
@@ -226,48 +227,54 @@ bool Judge::IsOnTriangle(const Vec3& x) const
     });
 }
 
-/// `cone`: its apex, then the corners of its base.
-bool Judge::IsInView(std::int32_t triangle, const std::vector<Vec3>& cone) const
+/// `cone`: the corners of its base, then those of its blunt tip.
+bool Judge::Meets(std::int32_t triangle, const Vec3& eye, const std::vector<Vec3>& cone) const
 {
   const auto& [i, j, k] = this->Corners[triangle];
   const Vec3 &a = this->Places[i], &b = this->Places[j], &c = this->Places[k];
-  const Vec3& eye = cone[0];
   if (!this->Backs[triangle] && SignOfVolume(a, b, c, eye) < 0)
   {
     return false; // seen from behind
   }
   // Two convex bodies meet where an edge of one meets a face of the other, or one holds the other:
-  // the triangle has no inside to hold the pyramid, which has one to hold the triangle.
+  // the triangle has no inside to hold the cone, which has one to hold the triangle.
   bool isWithin = true;
-  const Vec3& onBase = cone[1];
-  for (int side = 1; side <= SidesOfCone; ++side)
+  const Vec3* const base = cone.data();
+  const Vec3* const tip = base + SidesOfCone;
+  const auto meetsFace = [&](const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& inner)
   {
-    const Vec3& u = cone[side];
-    const Vec3& v = cone[side % SidesOfCone + 1];
-    if (SegmentMeets(eye, u, a, b, c) || SegmentMeets(u, v, a, b, c) ||
-      SegmentMeets(a, b, eye, u, v) || SegmentMeets(b, c, eye, u, v) ||
-      SegmentMeets(c, a, eye, u, v))
+    if (HasNoArea(p, q, r))
+    {
+      return false; // of a tip that is a point
+    }
+    isWithin = isWithin && SignOfVolume(p, q, r, a) * SignOfVolume(p, q, r, inner) > 0;
+    return SegmentMeets(a, b, p, q, r) || SegmentMeets(b, c, p, q, r) ||
+      SegmentMeets(c, a, p, q, r);
+  };
+  for (int side = 0; side < SidesOfCone; ++side)
+  {
+    const int next = (side + 1) % SidesOfCone;
+    const Vec3& inner = base[(side + SidesOfCone / 2) % SidesOfCone];
+    if (SegmentMeets(tip[side], base[side], a, b, c) ||
+      SegmentMeets(base[side], base[next], a, b, c) ||
+      SegmentMeets(tip[side], tip[next], a, b, c) ||
+      meetsFace(tip[side], base[side], base[next], inner) ||
+      meetsFace(tip[side], base[next], tip[next], inner))
     {
       return true;
     }
-    const bool isFan = side > 1 && side < SidesOfCone;
+    const bool isFan = side > 0 && next > 0;
     if (isFan &&
-      (SegmentMeets(a, b, onBase, u, v) || SegmentMeets(b, c, onBase, u, v) ||
-        SegmentMeets(c, a, onBase, u, v)))
+      (meetsFace(base[0], base[side], base[next], eye) ||
+        meetsFace(tip[0], tip[side], tip[next], base[0])))
     {
       return true;
     }
-    // A corner is within all faces if on the inner side of each: that of the next corner but one.
-    const Vec3& inner = cone[(side + SidesOfCone / 2 - 1) % SidesOfCone + 1];
-    isWithin = isWithin && SignOfVolume(eye, u, v, a) * SignOfVolume(eye, u, v, inner) > 0;
   }
-  return isWithin &&
-    SignOfVolume(cone[1], cone[1 + SidesOfCone / 3], cone[1 + 2 * SidesOfCone / 3], a) *
-      SignOfVolume(cone[1], cone[1 + SidesOfCone / 3], cone[1 + 2 * SidesOfCone / 3], eye) >
-    0;
+  return isWithin;
 }
 
-bool Judge::IsInPlainView(const Vec3& goal, const Vec3& eye) const
+bool Judge::IsInView(const Vec3& goal, const Vec3& eye, double spread, double slack) const
 {
   const auto blocks = [&](std::int32_t triangle)
   {
@@ -308,15 +315,19 @@ bool Judge::IsInPlainView(const Vec3& goal, const Vec3& eye) const
   const Vec3 u = Unit(Cross(ahead, across));
   const Vec3 v = Cross(ahead, u);
   // Around the cone, and by rounding wider.
-  const double radius = 1e-3 * length / std::cos(M_PI / SidesOfCone) + 0x1p-50 * largest;
-  std::vector<Vec3> cone{ eye };
-  for (int side = 0; side < SidesOfCone; ++side)
+  const double wider = 1.0 / std::cos(M_PI / SidesOfCone);
+  const double radius = wider * std::max(spread * length, slack) + 0x1p-50 * largest;
+  std::vector<Vec3> cone;
+  for (const auto& [middle, wide] : { std::pair(goal, radius), std::pair(eye, wider * slack) })
   {
-    const double angle = 2.0 * M_PI * side / SidesOfCone;
-    cone.push_back(goal + (radius * std::cos(angle)) * u + (radius * std::sin(angle)) * v);
+    for (int side = 0; side < SidesOfCone; ++side)
+    {
+      const double angle = 2.0 * M_PI * side / SidesOfCone;
+      cone.push_back(middle + (wide * std::cos(angle)) * u + (wide * std::sin(angle)) * v);
+    }
   }
-  return !this->Visit(
-    eye, goal, 1.1 * radius, [&](std::int32_t triangle) { return this->IsInView(triangle, cone); });
+  return !this->Visit(eye, goal, 1.1 * radius,
+    [&](std::int32_t triangle) { return this->Meets(triangle, eye, cone); });
 }
 
 double Judge::ClearanceOf(std::int32_t triangle) const

@@ -40,9 +40,15 @@ public:
   bool IsOnTriangle(const Vec3& x) const;
 
   /// Whether no triangle that can be touched from `eye` meets the cone from there to `goal`, of a
-  /// radius of a thousandth of its length: a plain view. The cone is taken 2 % wider, so that it is
-  /// not said of a view that is not plain. Triangles that `eye` lies on are in the way.
-  bool IsInPlainView(const Vec3& goal, const Vec3& eye) const;
+  /// radius of `spread` of its length, about a tube of radius `slack`. It is taken 2 % wider, so
+  /// that it is not said of a view that is not plain. Triangles that `eye` lies on are in the way.
+  bool IsInView(const Vec3& goal, const Vec3& eye, double spread, double slack) const;
+  /// Within a cone of a thousandth: a plain view. `slack`: the rounding of `eye`, nearer than which
+  /// a triangle beside the way might as well be in it.
+  bool IsInPlainView(const Vec3& goal, const Vec3& eye, double slack = 0.0) const
+  {
+    return this->IsInView(goal, eye, 1e-3, slack);
+  }
 
   /// The largest distance that float64 needs from any of the triangles within `reach` of a point to
   /// know its side of them, where they are slivers; at most a millionth of their longest edge.
@@ -72,7 +78,7 @@ private:
   /// Calls visit(triangle) for all that come within `reach` of a segment, until it returns true.
   template <class Visitor>
   bool Visit(const Vec3& from, const Vec3& to, double reach, const Visitor& visit) const;
-  bool IsInView(std::int32_t triangle, const std::vector<Vec3>& cone) const;
+  bool Meets(std::int32_t triangle, const Vec3& eye, const std::vector<Vec3>& cone) const;
   double ClearanceOf(std::int32_t triangle) const;
 
   std::vector<Vec3> Places;

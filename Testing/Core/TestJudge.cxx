@@ -276,6 +276,16 @@ TEST(Judge, SeesPlainlyWhereTheConeIsEmpty)
       return Joined(OneTriangle({ half, -9, -9 }, { half, 9, 0 }, { half, -9, 9 }),
         OneTriangle({ -half, -9, -9 }, { -half, -9, 9 }, { -half, 9, 0 }));
     };
+    // A tube of roundings about the way to a near goal, beside a wall.
+    const Judge wall = JudgeOf(put(plate(0x1p-11)), true);
+    const double scale = put.Scale;
+    const Vec3 near = put({ 0, 0, 0.0625 });
+    const Vec3 under = put({ 0, 0, -0.0625 });
+    EXPECT_TRUE(wall.IsInView(under, near, 0.0, 0x1p-12 * scale));
+    EXPECT_TRUE(wall.IsInView(under, near, 0.0, 0.0));
+    EXPECT_FALSE(wall.IsInView(under, near, 0.0, 0x1p-10 * scale));
+    EXPECT_TRUE(wall.IsInPlainView(under, near));
+    EXPECT_FALSE(wall.IsInPlainView(under, near, 0x1p-10 * scale));
     EXPECT_FALSE(sees(slot(0x1p-10), true));
     EXPECT_TRUE(sees(slot(0x1p-8), true));
   }
@@ -320,7 +330,7 @@ protected:
   {
     const Put put = GetParam();
     Trial::Settings settings;
-    settings.Clearance = 1e-9 * put.Scale;
+    settings.Clearance = 1e-6 * put.Scale;
     settings.PressEvery = pressEvery;
     const auto judge = std::make_shared<Judge>(JudgeOf(put(Square(1.0, 2)), true));
     return Trial({ { judge, {}, 0.0 } }, follower, probe, settings);
@@ -401,7 +411,7 @@ TEST_P(TrialOverAPlate, FindsPhantomsAndLetsGoWhatIsLate)
   // As near as clearances go.
   HandMade near(
     [&](const Vec3& now, const Vec3& hip) {
-      return std::vector<Vec3>{ now, hip + Vec3{ 0, 0, 15e-9 * GetParam().Scale } };
+      return std::vector<Vec3>{ now, hip + Vec3{ 0, 0, 15e-6 * GetParam().Scale } };
     });
   Trial close = this->Make(near, near);
   close.Place(this->At(0, 0, 0.5));
@@ -456,7 +466,7 @@ TEST_P(TrialOverAPlate, TellsStuckFromBalancing)
     return std::array<long, 2>{ trial.Count()[Fault::Stuck], trial.Count()[Fault::Balance] };
   };
   // The HIP in the plate's very plane, the point before its rim: nearer is only around the rim.
-  const double e = 0x1p-30;
+  const double e = 0x1p-20;
   EXPECT_EQ(faults(this->At(1.0 + e, 0.25, 0), this->At(0.5, 0.25, 0), this->At(0.75, 0.25, e)),
     (std::array<long, 2>{ 0, 1 }));
   // Over the plate, the HIP straight below; a way along the plate leads away.

@@ -14,6 +14,8 @@ constexpr int WaysToBeStuck = 5;
 constexpr int TicksToPress = 4;
 constexpr double LiftClearances = 30.0;
 constexpr double StuckShare = 0.02;
+/// Of a clearance: some 16 roundings. A wire that thin passes a point as it passes its neighbours.
+constexpr double RoundingShare = 1.0 / 64.0;
 /// The core's word: a coordinate under this share of a surface's radius is 0 there.
 constexpr double NegligibleShare = 0x1p-68;
 }
@@ -149,7 +151,21 @@ bool Trial::IsInPlainView(const Vec3& goal, const Vec3& eye) const
 {
   return std::all_of(this->Parts.begin(), this->Parts.end(),
     [&](const Part& part)
-    { return part.Surface->IsInPlainView(this->LocalOf(part, goal), this->LocalOf(part, eye)); });
+    {
+      return part.Surface->IsInPlainView(
+        this->LocalOf(part, goal), this->LocalOf(part, eye), RoundingShare * this->Set.Clearance);
+    });
+}
+
+bool Trial::IsWellFree(const Vec3& from, const Vec3& to) const
+{
+  return this->IsFree(from, to) &&
+    std::all_of(this->Parts.begin(), this->Parts.end(),
+      [&](const Part& part)
+      {
+        return part.Surface->IsInView(this->LocalOf(part, to), this->LocalOf(part, from), 0.0,
+          RoundingShare * this->Set.Clearance);
+      });
 }
 
 void Trial::Report(Finding finding)
@@ -318,7 +334,7 @@ bool Trial::HasDescent(double reach, double length) const
     // Steeper than 1 in 1000, and so long that it does not end in the clearance of a narrow fold.
     const double steep = Dot(along, pull);
     return steep > 1e-3 * Length(along) && Length(along) > 1e-3 &&
-      this->IsFree(this->Now, this->Now + (length / Length(along)) * along);
+      this->IsWellFree(this->Now, this->Now + (length / Length(along)) * along);
   };
   if (leads(pull))
   {
@@ -352,8 +368,9 @@ void Trial::PressAgain(const Vec3& hip)
   {
     if (part.Surface->LargestSliverClearance() > clearance)
     {
-      clearance = std::max(
-        clearance, part.Surface->SliverClearance(this->LocalOf(part, this->Now), 4.0 * clearance));
+      clearance = std::max(clearance,
+        part.Surface->SliverClearance(
+          this->LocalOf(part, this->Now), 4.0 * part.Surface->LargestSliverClearance()));
     }
   }
   const double lift = std::max(LiftClearances * clearance, 32.0 * this->Set.Resolution);

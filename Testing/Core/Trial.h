@@ -132,6 +132,8 @@ public:
   /// Whether a way crosses nothing, and comes upon no triangle within its plane.
   bool IsFree(const Vec3& from, const Vec3& to) const;
   bool IsInPlainView(const Vec3& goal, const Vec3& eye) const;
+  /// Whether a way is free with some roundings to spare.
+  bool IsWellFree(const Vec3& from, const Vec3& to) const;
 
 private:
   /// One tick of the follower, its way judged.
