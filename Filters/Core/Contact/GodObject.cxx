@@ -91,6 +91,9 @@ void GodObject::Implementation::Update(const Vector& hip)
   this->Way[0] = ToVec3(this->Position);
   this->WaySize = 1;
   this->PassesLeft = LargestNumberOfPasses;
+  this->ReleasesLeft = LargestNumberOfReleases;
+  this->GoalMoved = glm::length(hip - this->LastHip);
+  this->LastHip = hip;
   if (this->IsSplit && !this->Join(hip))
   {
     return;
@@ -115,14 +118,20 @@ bool GodObject::Implementation::Walk(const Vector& goal)
   {
     const Vector before = this->Position;
     const bool arrived = this->Pass(goal);
-    if (this->Position == goal || (arrived && this->IsSupported()))
+    if (this->Position == goal)
     {
       return true;
     }
-    if (this->IsOverloaded ||
-      SquaredLength(this->Position - before) <= 1e-18 * SquaredLength(goal - before))
+    if (this->IsOverloaded)
     {
       return false;
+    }
+    const bool isSupported = arrived && this->IsSupported();
+    const bool isHeld =
+      isSupported || SquaredLength(this->Position - before) <= 1e-18 * SquaredLength(goal - before);
+    if (isHeld && !this->Release(goal))
+    {
+      return isSupported;
     }
   }
   return false;

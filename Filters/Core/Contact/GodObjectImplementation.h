@@ -21,11 +21,17 @@ constexpr int LargestNumberOfCasts = 12;
 /// and a few milliseconds at the most.
 constexpr std::int64_t LargestNumberOfTriangles = 1 << 17;
 
-/// Each cast makes at most one motion, and one more goes to what is in plain view.
-constexpr int LargestWay = LargestNumberOfPasses * LargestNumberOfCasts + 2;
+/// How often an update looks whether what holds is there; once where it is.
+constexpr int LargestNumberOfReleases = 4;
+
+/// Each cast makes at most one motion, so does each release, and one more goes to what is in plain
+/// view.
+constexpr int LargestWay =
+  LargestNumberOfPasses * LargestNumberOfCasts + LargestNumberOfReleases + 2;
 
 /// What a god-object does: GodObject.cxx moves it to the HIP, GodObjectMotion.cxx with surfaces
-/// that move, GodObjectMaterial.cxx tells what they feel like and lets friction hold it.
+/// that move, GodObjectRelease.cxx lets go of planes that hold where no facet is,
+/// GodObjectMaterial.cxx tells what they feel like and lets friction hold it.
 class GodObject::Implementation
 {
 public:
@@ -77,6 +83,9 @@ private:
   Vector AimWithFriction(const Vector& hip);
   bool Walk(const Vector& goal);
   bool Pass(const Vector& hip);
+  bool Release(const Vector& goal);
+  bool MayBeReleased(const Vector& pull);
+  bool IsNoGap(const Vector& to);
   bool MoveTowards(const Vector& target);
   bool IsSupported();
   void KeepSupports(bool keepsFar);
@@ -107,6 +116,17 @@ private:
   WorkBudget Budget;
   std::vector<std::int32_t> Scratch; ///< for questions to another god-object's surfaces
   int PassesLeft = 0;                ///< of this update
+  int ReleasesLeft = 0;
+  Vector LastHip{ 0 };
+  double GoalMoved = HUGE_VAL; ///< since the update before
+  /// Of a release: who asked.
+  struct Refusal
+  {
+    Vector Position{ 0 };
+    Vector Pull{ 0 };
+    std::array<FacetId, 3> Facets;
+  };
+  Refusal Refused;
   Friction Cone;
   /// The surfaces that count: all, but for a god-object that is split.
   std::size_t First = 0;

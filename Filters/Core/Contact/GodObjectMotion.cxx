@@ -359,6 +359,7 @@ bool GodObject::Implementation::Join(const Vector& hip)
     this->Active.Clear();
     this->WaySize = 1;
     this->PassesLeft = LargestNumberOfPasses;
+    this->ReleasesLeft = LargestNumberOfReleases;
     this->Walk(hip);
     isTogether =
       isTogether && this->Sets[i].LocalPosition() == this->Sets[i].Frame().PointToLocal(hip);

@@ -271,7 +271,7 @@ void WorkingSet::TurnWires()
     }
     const auto [a, b, c] = this->CornersOf(this->Triangles[i]);
     const bool isBehind = Orientation(a, b, c, this->Position) < 0;
-    this->Flipped[i] = isBehind ? 1 : 0;
+    this->Flipped[i] = isBehind && this->Touched->TouchesBack(this->Triangles[i]) ? 1 : 0;
     const Facet facet(a, b, c);
     const Vector& anchor = facet.Corner[facet.Anchor];
     const Vector along =
@@ -460,6 +460,7 @@ FacetHit WorkingSet::Scan(const Vector& to, const ActivePlanes& active)
     hit.Plane.Anchor = this->ToSurface.PointToScene(this->CornersOf(triangle).A);
     hit.Plane.Clearance = this->Clearance[i];
     hit.Plane.IsFar = this->Covered == Region::Segment;
+    hit.Plane.IsOfWire = this->IsWire[i] != 0;
   }
   return hit;
 }
@@ -482,8 +483,34 @@ bool WorkingSet::IsClear(const Vector& target)
   return !this->MeetsAny(to);
 }
 
+bool WorkingSet::IsClearNear(const Vector& target, ActivePlane& inTheWay)
+{
+  const Vector to = this->ToSurface.PointToLocal(target);
+  if (this->Covered != Region::Ball || this->IsSweeping() || !this->IsInBall(to))
+  {
+    return false;
+  }
+  if (this->PassesThroughNothing(to))
+  {
+    return true;
+  }
+  const std::int32_t i = this->FindTouched(to);
+  if (i >= 0)
+  {
+    const Vector normal = this->FacetNormal(i);
+    inTheWay.Facet = { this->Index, this->Triangles[i] };
+    inTheWay.Normal = this->ToSurface.VectorToScene(this->Flipped[i] ? -normal : normal);
+  }
+  return i < 0;
+}
+
 /// Whether the way to `to` meets a gathered triangle.
 bool WorkingSet::MeetsAny(const Vector& to)
+{
+  return this->FindTouched(to) >= 0;
+}
+
+std::int32_t WorkingSet::FindTouched(const Vector& to)
 {
   if (!this->IsPositionMeasured)
   {
@@ -503,10 +530,10 @@ bool WorkingSet::MeetsAny(const Vector& to)
     if (after[i] <= error[i] && before[i] >= -error[i] && this->MeetsBox(i, to, 0.0) &&
       this->Touches(i, this->Position, to))
     {
-      return true;
+      return i;
     }
   }
-  return false;
+  return -1;
 }
 
 bool WorkingSet::Touches(std::int32_t i, const Vector& from, const Vector& to) const

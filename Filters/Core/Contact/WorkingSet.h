@@ -79,8 +79,8 @@ public:
   bool Succeed(
     const WorkingSet& previous, const ActivePlane* held, TriangleList scratch, WorkBudget& budget);
 
-  /// Whether another place is enclosed by the surface as often as the god-object; true where nothing
-  /// encloses, false where it cannot be told. Scene frame.
+  /// Whether another place is enclosed by the surface as often as the god-object; true where
+  /// nothing encloses, false where it cannot be told. Scene frame.
   bool IsOnSameSide(const Vector& place, WorkBudget& budget);
 
   /// Finds the first facet met on the way to `goal`, short of which the god-object has to stop.
@@ -92,6 +92,10 @@ public:
   /// Certifies a motion to `target`, on the way to the goal of the last FindFirstHit and no farther
   /// than its hit: true only if it touches no facet from the side that can be touched. Exact.
   bool IsClear(const Vector& target);
+
+  /// Certifies a motion to anywhere around. False also where not all triangles there are known, and
+  /// in a sweep. `inTheWay`: set to the plane of a facet that is, if one is known.
+  bool IsClearNear(const Vector& target, ActivePlane& inTheWay);
 
   /// Moves to the target of the last IsClear, which must have been true.
   void Move();
@@ -180,6 +184,8 @@ private:
     }
     return true;
   }
+  /// A gathered triangle that a motion touches from the side that can be touched, or -1.
+  std::int32_t FindTouched(const Vector& to);
   struct Corners
   {
     Vector A, B, C;

@@ -104,6 +104,7 @@ bool WorkingSet::Sweeps(std::int32_t triangle, const Vector& to, FacetHit& hit) 
   hit.Plane.Clearance =
     facet.Clearance(this->MinimumClearance, glm::length(facet.Corner[facet.Anchor]));
   hit.Plane.IsFar = false;
+  hit.Plane.IsOfWire = false;
   return true;
 }
 

@@ -4,6 +4,7 @@
 #include "haptics/Contact/GodObject.cxx"
 #include "haptics/Contact/GodObjectMaterial.cxx"
 #include "haptics/Contact/GodObjectMotion.cxx"
+#include "haptics/Contact/GodObjectRelease.cxx"
 
 namespace haptics::testing
 {

@@ -1,0 +1,201 @@
+#include "haptics/Contact/GodObjectImplementation.h"
+#include "haptics/Contact/NarrowGap.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace haptics
+{
+namespace
+{
+/// Planes to try: those that hold, and those of facets in the way of a try.
+constexpr int MostPlanes = 6;
+/// How far behind a plane a try ends, in its clearances: not so near that the next cast meets it
+/// again.
+constexpr double DepthBehind = 4.0;
+/// A motion along planes has to come so much nearer to the goal, of its length.
+constexpr double LeastDescent = 1e-3;
+/// A goal rests that moves no more than this share of its distance in an update.
+constexpr double RestingShare = 0.02;
+/// Pulls with this cosine between them, a third of a thousandth, get the same answer.
+constexpr double SameDirection = 1.0 - 5e-8;
+
+/// The planes that a god-object tries to go along.
+struct Tries
+{
+  std::array<ActivePlane, MostPlanes> Planes;
+  int Held = 0; ///< so many of them hold it, the first
+  int Size = 0;
+
+  void Add(const ActivePlane& plane)
+  {
+    const bool isKnown = std::any_of(this->Planes.begin(), this->Planes.begin() + this->Size,
+      [&](const ActivePlane& other) { return other.Facet == plane.Facet; });
+    if (!isKnown && this->Size < MostPlanes)
+    {
+      this->Planes[this->Size++] = plane;
+    }
+  }
+
+  /// From `position` along none, one or two planes (-1: none) as far as it takes to be behind those
+  /// that hold and are not gone along. False where that leads no nearer to the goal.
+  bool FindStep(
+    const Vector& position, const Vector& pull, int first, int second, Vector& step) const
+  {
+    Vector along = pull;
+    if (second >= 0)
+    {
+      const Vector crease = glm::cross(this->Planes[first].Normal, this->Planes[second].Normal);
+      const double squared = SquaredLength(crease);
+      along = squared > 1e-20 ? (glm::dot(pull, crease) / squared) * crease : Vector(0.0);
+    }
+    else if (first >= 0)
+    {
+      const Vector& normal = this->Planes[first].Normal;
+      along -= glm::dot(along, normal) * normal;
+    }
+    const double reach = glm::length(along);
+    if (!(reach > LeastDescent * glm::length(pull)))
+    {
+      return false;
+    }
+    along /= reach;
+    double length = this->Held == 0 ? reach : 0.0;
+    for (int i = 0; i < this->Held; ++i)
+    {
+      const ActivePlane& plane = this->Planes[i];
+      const double approach = -glm::dot(plane.Normal, along);
+      if (i != first && i != second && approach > 1e-6)
+      {
+        const double height = glm::dot(plane.Normal, position - plane.Anchor);
+        length = std::max(length, (height + DepthBehind * plane.Clearance) / approach);
+      }
+    }
+    if (first < 0)
+    {
+      length = std::min(length, reach); // to the goal itself
+    }
+    step = length * along;
+    return length > 0.0 && length <= reach;
+  }
+};
+}
+
+/// Planes are wider than their facets, and where facets meet at a corner that is neither convex nor
+/// concave, no three planes are what is free. So a god-object that is held asks whether it is held
+/// by facets: where a short motion that ends behind planes that hold it is certified to touch
+/// nothing, what is there of them is not in the way. It is tried towards the goal, along each plane
+/// and along two; a facet in the way of one try is a plane to go along in the next. All lead nearer
+/// to the goal, so the update stays monotone. True if such a motion was made: the next pass goes on
+/// from there.
+bool GodObject::Implementation::Release(const Vector& goal)
+{
+  const Vector pull = goal - this->Position;
+  if (this->ReleasesLeft <= 0 || !this->MayBeReleased(pull))
+  {
+    return false;
+  }
+  --this->ReleasesLeft;
+  Tries tries;
+  for (int i = 0; i < this->Active.SupportSize(); ++i)
+  {
+    const ActivePlane& plane = this->Active.Support(i);
+    if (plane.IsOfWire)
+    {
+      return false; // it is let go of where the goal is in plain view
+    }
+    tries.Add(plane);
+  }
+  tries.Held = tries.Size;
+  const auto attempt = [&](int first, int second)
+  {
+    Vector step;
+    if (!tries.FindStep(this->Position, pull, first, second, step))
+    {
+      return false;
+    }
+    const Vector to = this->Position + step;
+    for (std::size_t i = this->First; i < this->Last; ++i)
+    {
+      ActivePlane inTheWay;
+      if (!this->Sets[i].IsClearNear(to, inTheWay))
+      {
+        if (inTheWay.Facet.Triangle >= 0)
+        {
+          tries.Add(inTheWay);
+        }
+        return false;
+      }
+    }
+    if (!this->IsNoGap(to))
+    {
+      return false;
+    }
+    this->MoveSets();
+    this->Position = to;
+    this->Way[this->WaySize++] = ToVec3(to);
+    this->Active.Clear();
+    return true;
+  };
+  if (attempt(-1, -1))
+  {
+    return true;
+  }
+  // Tries add planes.
+  for (int i = 0; i < tries.Size; ++i)
+  {
+    if (attempt(i, -1))
+    {
+      return true;
+    }
+    for (int j = 0; j < i; ++j)
+    {
+      if (attempt(j, i))
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// Whether a motion that is clear does not squeeze through a gap that facets close by reaching over
+/// it. Certifies it again, so that it can be made.
+bool GodObject::Implementation::IsNoGap(const Vector& to)
+{
+  NarrowGap gap(this->Position, to);
+  for (std::size_t i = this->First; i < this->Last; ++i)
+  {
+    if (!this->Sets[i].IsOpen(to, this->Budget, gap))
+    {
+      return false;
+    }
+  }
+  return !gap.IsFound() && this->IsClear(to);
+}
+
+/// Whether a god-object that is held has to ask: not while it or the goal is on its way, so that a
+/// way does not hang on how far planes are kept off, and not again what was refused.
+bool GodObject::Implementation::MayBeReleased(const Vector& pull)
+{
+  double least = 0.0;
+  for (int i = 0; i < this->Active.SupportSize(); ++i)
+  {
+    least = std::max(least, DepthBehind * this->Active.Support(i).Clearance);
+  }
+  const double moved = SquaredLength(this->Position - ToVector(this->Way[0]));
+  if (moved > least * least || this->GoalMoved > RestingShare * glm::length(pull))
+  {
+    return false;
+  }
+  const std::array<FacetId, 3> facets = this->Active.SupportFacets();
+  const double lengths = glm::length(pull) * glm::length(this->Refused.Pull);
+  const bool isSame = this->Position == this->Refused.Position && facets == this->Refused.Facets &&
+    glm::dot(pull, this->Refused.Pull) >= SameDirection * lengths && lengths > 0.0;
+  if (!isSame)
+  {
+    this->Refused = { this->Position, pull, facets };
+  }
+  return !isSame;
+}
+}
