@@ -102,8 +102,7 @@ public:
     JudgedSoak::Print("all", this->All);
     std::printf("stalls: %ld, twice in a row: %ld\n\n", this->Stalls, this->DoubleStalls);
     return this->DoubleStalls == 0 && this->Stalls * 100000 <= std::max(this->All.Ticks, 100000L) &&
-      this->All[Fault::Crossing] == 0 && this->All[Fault::Gap] == 0 &&
-      this->All[Fault::Away] == 0 && this->All.Ticks > 0;
+      this->All.Ticks > 0 && JudgedSoak::IsGood(this->All);
   }
 
 private:
@@ -174,7 +173,6 @@ int main(int argc, char* argv[])
       soak.Run(scene.Name, scene.Make());
     }
   }
-  // While the core still holds what nothing holds, what the judge finds there is only printed.
-  soak.Finish();
+  good = soak.Finish() && good;
   return good ? 0 : 1;
 }
