@@ -38,10 +38,21 @@ try:
 
     from . import vtkHapticsDevices, vtkHapticsFilters, vtkHapticsScene, vtkHapticsView
 except ImportError as error:
+    import glob
+    import os
+
+    if glob.glob(os.path.join(os.path.dirname(__file__), "libvtkHaptics*.so")):  # made by pip
+        remedy = (
+            "It was installed for another VTK or another Python: install it again, with the pip of "
+            "the Python that runs, and where that imports vtkmodules."
+        )
+    else:
+        remedy = (
+            "Source the env.sh of the build folder first, for example `. build/env.sh`, and run the "
+            "Python that the VTK or ParaView packages were made for, on Debian /usr/bin/python3."
+        )
     raise ImportError(
-        "vtkhaptics: a compiled module could not be loaded (" + str(error) + "). "
-        "Source the env.sh of the build folder first, for example `. build/env.sh`, and run the "
-        "Python that the VTK or ParaView packages were made for, on Debian /usr/bin/python3."
+        f"vtkhaptics: a compiled module could not be loaded ({error}). {remedy}"
     ) from error
 
 from ._version import __version__
