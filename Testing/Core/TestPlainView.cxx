@@ -424,7 +424,8 @@ TEST(PlainView, TheTipOfAConeHoldsNothingInTheOpen)
   }
 }
 
-//  --------o->------      exactly in the plane of a sheet: nothing is crossed, so nothing holds; and
+//  --------o->------      exactly in the plane of a sheet: nothing is crossed, so nothing holds;
+//  and
 //                         what has come to rest in the sheet is in front of it
 TEST(PlainView, AMotionInATrianglesPlaneCrossesNothing)
 {

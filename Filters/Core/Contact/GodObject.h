@@ -76,13 +76,13 @@ struct Contact
 /// through neither of its sides and crosses nothing: so a sheet that is met edge on, to the last
 /// bit, does not hold. A point that comes to rest on a triangle that way counts as in front of it.
 ///
-/// **Nothing holds where nothing is**, the other half: if no facet, from a side that can be touched,
-/// meets the straight way from the god-object to the HIP, nor a cone of a thousandth around it, the
-/// god-object comes to within 8 clearances of the HIP (of the facets that hold it; a clearance is
-/// TriangleSurface::Clearance(), or up to a millionth of the longest edge of a triangle that even
-/// twice the digits of a double do not tell from a line), and where it is farther from it, exactly
-/// there: in that update, or, of a triangle thinner than its clearance that the update has just
-/// met, in the next. It holds because
+/// **Nothing holds where nothing is**, the other half: if no facet, from a side that can be
+/// touched, meets the straight way from the god-object to the HIP, nor a cone of a thousandth
+/// around it, the god-object comes to within 8 clearances of the HIP (of the facets that hold it; a
+/// clearance is TriangleSurface::Clearance(), or up to a millionth of the longest edge of a
+/// triangle that even twice the digits of a double do not tell from a line), and where it is
+/// farther from it, exactly there: in that update, or, of a triangle thinner than its clearance
+/// that the update has just met, in the next. It holds because
 /// - an update ends with a look along that way: what exact predicates find it free of facets is
 ///   gone in one certified piece, whatever planes hold the god-object,
 /// - the look is left out only where a facet is known to be in the way: the god-object is in front
@@ -96,10 +96,10 @@ struct Contact
 ///
 /// What is *not* in plain view is reached around edges as far as each step shortens the way to the
 /// HIP. That no plane stops it that is not a facet's there: a facet reaches beyond an edge that it
-/// shares by a quarter of a clearance only, beyond an open edge or corner by 4 clearances, and there
-/// it does not hold what goes along a plane that it lies under (WorkingSet::Covers). Which of the
-/// facets that are met at once counts is decided by more than rounding, so that it is the same at
-/// every scale, place and frame.
+/// shares by a quarter of a clearance only, beyond an open edge or corner by 4 clearances, and
+/// there it does not hold what goes along a plane that it lies under (WorkingSet::Covers). Which of
+/// the facets that are met at once counts is decided by more than rounding, so that it is the same
+/// at every scale, place and frame.
 ///
 /// **Surfaces that move** see the god-object move, and its way in their own frame is certified like
 /// any other: from the point where they last had it, bit for bit, to the next. So nothing passes
@@ -133,9 +133,9 @@ public:
 
   /// Puts the god-object at `hip` as in free space. Servo thread. [world]
   void Place(const Vec3& hip) noexcept;
-  /// The HIP has been put elsewhere, by another workspace. One that touches stays where it is, on its
-  /// side, and the next Update() takes it towards the HIP; one that is free goes there at once, unless
-  /// that is in a solid. Servo thread; as much work as an Update().
+  /// The HIP has been put elsewhere, by another workspace. One that touches stays where it is, on
+  /// its side, and the next Update() takes it towards the HIP; one that is free goes there at once,
+  /// unless that is in a solid. Servo thread; as much work as an Update().
   void Jump(const Vec3& hip) noexcept;
   /// Stays where it is, touching nothing, as if the HIP were there. Servo thread.
   const Contact& Hold() noexcept;
