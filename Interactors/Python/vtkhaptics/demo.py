@@ -14,7 +14,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 from vtkmodules.vtkRenderingCore import vtkRenderWindowInteractor
 
-from . import vtkHapticScene, vtkInteractorStyleHaptic, vtkSimulatedHapticDevice
+from . import vtkGodObjectActor, vtkHapticScene, vtkInteractorStyleHaptic, vtkSimulatedHapticDevice
 from .display import DisplayError, ensure_display
 from .errors import HapticsError
 from .interrupt import EXIT_INTERRUPTED, Interrupts
@@ -134,9 +134,9 @@ def touch(scene, picture, options, window, interrupts, write):
     does so after that. Raises what `write` does, and KeyboardInterrupt."""
     seconds = options.seconds
     scene.StartRecording()
-    style = picture.style = vtkInteractorStyleHaptic()  # which keeps the hand in the picture
-    style.SetScene(scene)
     if window:
+        style = vtkInteractorStyleHaptic()
+        style.SetScene(scene)
         hand = style.GetView().GetGodObjectActor()
         picture.renderer.AddViewProp(hand)
         hand.ShowTrailOn()
@@ -261,7 +261,7 @@ def report(options, scene, picture):
     writer.SetDataModeToBinary()  # see surfaces.py: not every VTK reads appended data
     write_atomically(trace_file, trace, writer)
     picture.add_stroke(stroke_lines(trace), picture.world_size(0.0035), strongest)
-    add_hand(picture, picture.style.GetView().GetGodObjectActor(), trace)
+    add_hand(picture, vtkGodObjectActor(), trace)
     picture.save(picture_file)
     print(f"picture: {picture_file}\ntrace:   {trace_file}", flush=True)
     return contact
