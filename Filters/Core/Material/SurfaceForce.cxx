@@ -16,6 +16,9 @@ constexpr double VelocitySmoothing = 0.005;
 constexpr double TicksToEmpty = 10.0;
 /// Slower than this [m/s] a hand has no direction to speak of.
 constexpr double SmallSpeed = 0.002;
+/// The velocity comes late by its smoothing: a light device (45 g) shakes where more than mass over
+/// that time, 9 N s/m, resists it.
+constexpr double LargestResistance = 8.0; // [N s/m]
 /// Planes closer than this [rad] leave the same directions free.
 constexpr double SmallestAngle = 1e-6;
 
@@ -105,7 +108,7 @@ Vec3 SurfaceForce::Lateral(const Contact& contact, const Wish& wish, double dept
     const Vector along = velocity - glm::dot(velocity, normal) * normal;
     const double resistance =
       std::min(this->Missing / JumpWidth, this->Gain * LawForceOf(profile, depth));
-    lateral -= along * (resistance / (glm::length(along) + SmallSpeed));
+    lateral -= along * std::min(resistance / (glm::length(along) + SmallSpeed), LargestResistance);
   }
   return ToVec3(lateral);
 }
@@ -145,9 +148,8 @@ void SurfaceForce::SetGain(const Contact& contact, const Wish& wish, double dept
   // As much of the wanted gain as is paid for; a debt beyond the credit is taken off it.
   // Nothing is known of the work of a force that was cut off.
   const double change = wish.Gain * energy - held;
-  const double available = this->Clamped
-    ? std::max(this->Tank, 0.0)
-    : this->Tank + Credit * std::min(held, wish.Gain * energy);
+  const double available = this->Clamped ? std::max(this->Tank, 0.0)
+                                         : this->Tank + Credit * std::min(held, wish.Gain * energy);
   const double paid = std::max(std::min(change, available), -held);
   this->Gain = change <= paid ? wish.Gain : (held + paid) / energy;
   this->Missing = std::max(0.0, (wish.Gain - this->Gain) * energy);
