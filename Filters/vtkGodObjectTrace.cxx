@@ -8,8 +8,8 @@
 #include "vtkHapticProperties.h"
 
 #include "haptics/Contact/GodObject.h"
-#include "haptics/Material/SurfaceForce.h"
 #include "haptics/Tick/ContactTick.h"
+#include "haptics/Tick/SurfaceForce.h"
 
 #include "vtkAlgorithmOutput.h"
 #include "vtkCellData.h"

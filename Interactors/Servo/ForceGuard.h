@@ -2,12 +2,12 @@
 #define Haptics_ForceGuard_h
 
 #include "haptics/Material/ForceModel.h"
-#include "haptics/Material/SurfaceForce.h"
 #include "haptics/Math/Vec3.h"
 #include "haptics/Servo/PassivityController.h"
 #include "haptics/Servo/SafetySettings.h"
 #include "haptics/Servo/SlewLimiter.h"
 #include "haptics/Servo/StiffnessLimit.h"
+#include "haptics/Tick/SurfaceForce.h"
 #include "vtkHapticsServoModule.h"
 
 #include <cstdint>

@@ -2,8 +2,8 @@
 #define Haptics_MaterialTools_h
 
 #include "haptics/Contact/GodObject.h"
-#include "haptics/Material/SurfaceForce.h"
 #include "haptics/Material/SurfaceProperties.h"
+#include "haptics/Tick/SurfaceForce.h"
 
 #include <memory>
 

@@ -2,7 +2,7 @@
 #include "AnalyticSurfaces.h"
 #include "ExactQueries.h"
 #include "haptics/Contact/GodObject.h"
-#include "haptics/Material/SurfaceForce.h"
+#include "haptics/Tick/SurfaceForce.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // x the haptic interface point (HIP). Lengths are metres.
 #include "AnalyticSurfaces.h"
 #include "haptics/Contact/GodObject.h"
-#include "haptics/Material/SurfaceForce.h"
+#include "haptics/Tick/SurfaceForce.h"
 
 #include <gtest/gtest.h>
 

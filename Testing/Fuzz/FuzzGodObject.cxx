@@ -2,8 +2,8 @@
 #include "ExactQueries.h"
 #include "FuzzInput.h"
 #include "haptics/Contact/GodObject.h"
-#include "haptics/Material/SurfaceForce.h"
 #include "haptics/Math/VectorMath.h"
+#include "haptics/Tick/SurfaceForce.h"
 
 #include <algorithm>
 #include <cmath>

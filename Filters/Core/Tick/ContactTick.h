@@ -2,8 +2,8 @@
 #define Haptics_ContactTick_h
 
 #include "haptics/Contact/GodObject.h"
-#include "haptics/Material/SurfaceForce.h"
 #include "haptics/Math/WorkspaceTransform.h"
+#include "haptics/Tick/SurfaceForce.h"
 #include "haptics/Tick/TickRecord.h"
 #include "vtkHapticsCoreModule.h"
 

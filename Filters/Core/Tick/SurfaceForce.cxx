@@ -1,4 +1,4 @@
-#include "haptics/Material/SurfaceForce.h"
+#include "haptics/Tick/SurfaceForce.h"
 
 #include "haptics/Material/ForceProfile.h"
 #include "haptics/Math/VectorMath.h"
