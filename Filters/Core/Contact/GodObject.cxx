@@ -108,7 +108,10 @@ void GodObject::Implementation::Update(const Vector& hip)
   {
     return; // it is held by the facet that is right below, with the HIP straight behind it
   }
-  this->LookAhead(hip, before);
+  if (this->Position != hip)
+  {
+    this->LookAhead(hip, before);
+  }
 }
 
 /// Moves to the nearest point to the goal that the surfaces let it reach. True if it came there.
@@ -311,7 +314,7 @@ bool GodObject::Implementation::IsOver(const ActivePlane& plane, bool& isInside)
 void GodObject::Implementation::LookAhead(const Vector& hip, const std::array<FacetId, 3>& before)
 {
   const int size = this->Active.SupportSize();
-  if (this->Position == hip || this->IsOverloaded)
+  if (this->IsOverloaded)
   {
     return;
   }
