@@ -144,7 +144,7 @@ TEST(GripBadInput, APartThatItsAssemblyDropsIsLetGoOf)
   vtkNew<vtkAssembly> whole;
   vtkSmartPointer<vtkActor> cube = MakeCube();
   whole->AddPart(cube);
-  whole->SetPosition(0.0, 0.0, -0.02);
+  whole->SetPosition(0.0, 0.01, -0.02); // under the hand at y = 0.02, and not with its edge
   hand.Scene->AddSurface(whole);
   hand.MoveTo(0.01);
   hand.MoveTo(-0.001);
