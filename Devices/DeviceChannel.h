@@ -14,8 +14,8 @@ struct DeviceSample
 {
   std::array<double, 3> Position{}; ///< HIP, device frame [m]
   std::uint32_t Buttons = 0;        ///< bit i is set while button i is held
-  /// Whenever it changes the hand was put down somewhere else, as a mouse can do it and no hand that
-  /// is held: the god-object starts anew at Place and goes from there to Position.
+  /// Whenever it changes the hand was put down somewhere else, as a mouse can do it and no hand
+  /// that is held: the god-object starts anew at Place and goes from there to Position.
   std::uint32_t Placements = 0;
   std::array<double, 3> Place{}; ///< device frame [m]
 };

@@ -54,8 +54,8 @@ public:
     Transfer(const Transfer&) = delete;
     Transfer& operator=(const Transfer&) = delete;
 
-    /// Starts: bytes to write, or none to read up to a packet. [ms] `doing` is for the message where
-    /// it cannot start.
+    /// Starts: bytes to write, or none to read up to a packet. [ms] `doing` is for the message
+    /// where it cannot start.
     void Submit(
       const std::uint8_t* bytes, std::size_t size, unsigned int timeout, const char* doing);
     /// Waits for the end; a libusb_transfer_status.

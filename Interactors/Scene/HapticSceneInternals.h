@@ -33,7 +33,7 @@ public:
   bool WorkspaceChosen = false;           ///< it was set or fitted at all
   int DeviceState = 0;
   bool Clutched = false;
-  bool ClutchHeld = false;  ///< the device's button
+  bool ClutchHeld = false; ///< the device's button
   haptics::HapticGrip Grip;
   vtkMTimeType LandmarksSeen = 0;
   std::vector<haptics::TickRecord> Drained; // kept for its memory

@@ -108,10 +108,9 @@ void HapticSurface::TakeBuild(const PullSettings& settings, std::string& error)
     const std::optional<RigidPose> pose = FindPose(this->LastMatrix, this->Baked);
     this->NeedsBaking = !pose;
     this->Placed = pose.value_or(this->Placed);
-    this->Moving = this->Source->Moves()
-      ? std::make_shared<SurfaceMotion>(
-          this->Placed, this->InForce->Origin(), this->InForce->Radius())
-      : nullptr;
+    this->Moving = this->Source->Moves() ? std::make_shared<SurfaceMotion>(this->Placed,
+                                             this->InForce->Origin(), this->InForce->Radius())
+                                         : nullptr;
     this->LastMoved = settings.Now;
   }
 }

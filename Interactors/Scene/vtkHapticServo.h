@@ -156,8 +156,8 @@ public:
    * Device frame [m] to world frame: rotation, uniform scale, translation. Default the identity.
    * Any other matrix (a mirror, a shear, not finite, null) is an error, changes nothing and returns
    * false. After a change the HIP is where the device is; a god-object that touches stays on its
-   * side, one that is free goes along with the HIP, but never to the inside of a closed surface, and
-   * the force starts softly.
+   * side, one that is free goes along with the HIP, but never to the inside of a closed surface,
+   * and the force starts softly.
    */
   bool SetWorkspaceTransform(vtkMatrix4x4* deviceToWorld);
   void GetWorkspaceTransform(vtkMatrix4x4* deviceToWorld);
@@ -166,8 +166,8 @@ public:
   ///@{
   /**
    * While clutched the god-object stays where it is, wherever the device goes, and no force is
-   * asked for; surfaces that move push it along. Afterwards contact goes on from there, softly: give
-   * a workspace transform before that takes the device to the god-object. Default off.
+   * asked for; surfaces that move push it along. Afterwards contact goes on from there, softly:
+   * give a workspace transform before that takes the device to the god-object. Default off.
    */
   void SetClutched(bool clutched);
   bool GetClutched();

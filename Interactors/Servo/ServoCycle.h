@@ -91,7 +91,8 @@ public:
   bool Tick(double time) noexcept;
   /// Asks for zero force, and waits until the device has got it, at most 30 ms.
   void Suspend() noexcept;
-  /// Goes on after Suspend(), or a watchdog has halted the device: the force grows softly from zero.
+  /// Goes on after Suspend(), or a watchdog has halted the device: the force grows softly from
+  /// zero.
   void Resume() noexcept;
   /// Ends the run: asks for zero force, becomes `state`, and waits until the device has got the
   /// zero, at most 30 ms; Tick() does so at a fault.

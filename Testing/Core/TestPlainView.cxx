@@ -424,9 +424,8 @@ TEST(PlainView, TheTipOfAConeHoldsNothingInTheOpen)
   }
 }
 
-//  --------o->------      exactly in the plane of a sheet: nothing is crossed, so nothing holds;
-//  and
-//                         what has come to rest in the sheet is in front of it
+//  --------o->------      exactly in the plane of a sheet: nothing is crossed, so nothing
+//                         holds; and what has come to rest in the sheet is in front of it
 TEST(PlainView, AMotionInATrianglesPlaneCrossesNothing)
 {
   for (const Side side : { Side::Front, Side::Both })

@@ -56,7 +56,8 @@ TEST(RingBuffer, RoundsItsCapacityUpToAPowerOfTwo)
 
 TEST(RingBuffer, LosesAndReordersNothingBetweenTwoThreads)
 {
-  constexpr std::uint64_t last = 100000; // each lap may take a busy machine two turns of its threads
+  // Few laps, as each may take a busy machine two turns of its threads.
+  constexpr std::uint64_t last = 100000;
   RingBuffer<std::uint64_t> ring(64);
   std::thread pusher(
     [&ring]

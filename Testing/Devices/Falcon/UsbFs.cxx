@@ -40,8 +40,8 @@ int RealIoctl(int fd, unsigned long request, void* argument)
   return real(fd, request, argument);
 }
 
-/// The device number of an open file. Asked of the kernel itself, since umockdev 0.19 answers fstat()
-/// with what it plays.
+/// The device number of an open file. Asked of the kernel itself, since umockdev 0.19 answers
+/// fstat() with what it plays.
 bool FindNode(int fd, dev_t& node)
 {
   struct statx status = {};

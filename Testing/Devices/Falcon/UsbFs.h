@@ -75,7 +75,7 @@ private:
     bool Readable = true;
     int Master = -1;
     int Slave = -1;
-    unsigned long Node = 0; // the pty's device number
+    unsigned long Node = 0;     // the pty's device number
     std::list<Pending> Waiting; // reads
     std::list<Pending> Stuck;   // writes that the device does not take
     std::list<usbdevfs_urb*> Finished;

@@ -38,7 +38,8 @@ using namespace GuiTest;
 
 namespace
 {
-// Enough to take a while; the full size of an ordinary scan is asked for by an environment variable: see Plugin/README.md.
+// Enough to take a while; the full size of an ordinary scan is asked for by an environment
+// variable: see Plugin/README.md.
 const int SphereResolution = qEnvironmentVariableIntValue("HAPTICS_GUI_LARGE") ? 870 : 300;
 
 QTimer* timer()
