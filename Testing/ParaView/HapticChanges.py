@@ -33,8 +33,7 @@ class Change:
     drive(source, on_frame): shows one frame after another, and calls on_frame() after each.
     path(seconds): where the hand is then, world frame.
     field(points): see above.
-    levels: of the surface at first and in each frame; None where it is empty, and the last one is
-        felt on.
+    levels: of the surface at first and in each frame; None where it is empty.
     tolerance: how far the field on the facets is from the level.
     is_convex: so that a hand outside cannot be held back by anything.
     deforms: whether it is the same triangles all the time.
@@ -75,13 +74,13 @@ def force_steps(force):
 
 
 def level_range(change):
-    """The lowest and the highest level that may be felt in each tick."""
-    levels = change.levels[:1]
-    for level in change.levels[1:]:
-        levels.append(levels[-1] if level is None else level)
+    """The lowest and the highest level that may be touched in each tick; -inf and inf: none."""
     memory = DELAY if change.deforms else 0
-    felt = [levels[max(0, frame - memory):frame + 1] for frame in range(len(levels))]
-    return [np.repeat([limit(some) for some in felt], FRAME) for limit in (min, max)]
+    ranges = []
+    for frame, level in enumerate(change.levels):
+        recent = change.levels[max(0, frame - memory):frame + 1]
+        ranges.append((-np.inf, np.inf) if level is None else (min(recent), max(recent)))
+    return np.repeat(ranges, FRAME, axis=0).T
 
 
 @contextlib.contextmanager
@@ -288,6 +287,16 @@ def circle(height, seconds):
     return [down * tilt[0], down * tilt[1], down * np.sqrt(1.0 - tilt @ tilt)]
 
 
+def dip(seconds):
+    """Down onto the contours below and off them again, three times. It is off where they are empty:
+    an open surface that appears around a hand cannot tell it on which side to be."""
+    outside, inside = 13.0, 6.2
+    frames = [0, 3, 6, 8, 22, 24, 26, 40, 42]
+    heights = [outside, inside, inside, outside, inside, inside, outside, inside, inside]
+    height = np.interp(seconds, 0.001 * FRAME * np.array(frames), heights)
+    return height / inside * np.array(circle(inside, 0.1 + seconds))
+
+
 # --- changes --------------------------------------------------------------------------------------
 
 SCRUBBED = [1, 2, 3, 4, 3, 2, 1, 0, 7, 2, 10, 9, 8, 0, 5, 5, 10]
@@ -295,7 +304,7 @@ NOTCH = [float(value) for value in range(228, 203, -2)]
 OFFSETS = [0.1, 0.2, 0.3, 0.4, 0.5, 0.3, -0.1, -0.5, -0.4, -0.3, -0.2, -0.1]
 SMALL = [202.0, 204.0, 206.0, 208.0, 210.0, 207.0, 204.0, 201.0, 198.0, 200.0]
 LARGE = [230.0, 200.0, 215.0, 245.0, 260.0, 205.0, 200.0]
-EMPTY = [200.0, 1e9, 1e9, 205.0, -1e9, 200.0]
+EMPTY = [200.0] * 5 + [1e9] * 2 + [205.0] * 16 + [-1e9] * 2 + [200.0] * 16
 
 
 def changes():
@@ -320,10 +329,11 @@ def changes():
         pipeline=bumpy_contour(230.0), drive=drag(NOTCH),
         path=lambda seconds: [0.0, -3.956, max(0.241, 4.0 - 60.0 * seconds)],
         field=wavelet_value, levels=[230.0] + NOTCH, tolerance=0.2)
-    for name, values in (("small", SMALL), ("large", LARGE), ("empty", EMPTY)):
+    for name, values, path in (("small", SMALL, lambda seconds: circle(6.2, seconds)),
+                               ("large", LARGE, lambda seconds: circle(6.2, seconds)),
+                               ("empty", EMPTY, dip)):
         made[f"dragged_{name}"] = Change(
-            pipeline=bumpy_contour(200.0), drive=drag(values),
-            path=lambda seconds: circle(6.2, seconds), field=wavelet_value,
+            pipeline=bumpy_contour(200.0), drive=drag(values), path=path, field=wavelet_value,
             levels=[200.0] + [value if abs(value) < 1e8 else None for value in values],
             tolerance=0.2)
     return made

@@ -20,7 +20,6 @@ SLEW = 1.0  # [N a tick]: how fast vtkHapticSafety lets a force grow and turn
 SOFT = 0.05  # [N a tick]: after the start it grows no faster when a surface moves or changes
 SOFT_START = 150  # ticks till then: 0.1 s, which may count from the surface's second picture
 ROUNDING = 1e-8  # ranks place a point of a seam differently, by a unit of its last place as float
-EXPECTED = {}
 
 
 @unittest.skipIf(RANKS, "of the test without a server")
@@ -40,9 +39,7 @@ class TestHapticChanges(unittest.TestCase):
         self.assertLess(felt.force_steps.max(), SLEW + 1e-9)
         self.assertLess(felt.force_growth[SOFT_START:].max(), SOFT)
         self.assertGreater(touching.sum(), 60)
-        self.assertEqual(len(felt.complaints), len(EXPECTED.get(name, [])), felt.complaints)
-        for complaint, expected in zip(felt.complaints, EXPECTED.get(name, [])):
-            self.assertIn(expected, complaint)
+        self.assertEqual(felt.complaints, [])
         return felt
 
     def test_an_animation_plays_that_deforms_a_surface(self):
@@ -71,7 +68,11 @@ class TestHapticChanges(unittest.TestCase):
         self.assertGreater((np.diff(felt.touching.astype(int)) == -1).sum(), 0, "it goes from the hand")
 
     def test_a_contour_is_dragged_to_where_there_is_none(self):
-        self.check("dragged_empty")
+        felt = self.check("dragged_empty")
+        _low, high = level_range(changes()["dragged_empty"])
+        self.assertFalse(felt.touching[np.isinf(high)].any(), "nothing is there")
+        for surface in np.split(felt.touching, np.flatnonzero(np.diff(np.isinf(high))) + 1)[::2]:
+            self.assertTrue(surface.any(), "what is there again is touched")
 
     def test_an_engaged_hand_feels_the_changes_in_real_time(self):
         for name in ("deforming_played", "series_played", "dragged_ball"):

@@ -122,16 +122,18 @@ class TestHapticSceneLife(SceneTest):
         self.hand.proxy.InvokeCommand("Fit")
         self.hand.engage()
 
-    def test_a_surface_that_becomes_empty_is_touched_on_as_it_was_and_told(self):
+    def test_a_surface_that_becomes_empty_is_not_touched_and_no_error(self):
         wavelet = self.make("Wavelet")
         contour = self.make("Contour", Input=wavelet, ContourBy=["POINTS", "RTData"],
                             Isosurfaces=[157.0])
         self.touch(contour)
-        self.hand.step(100)
+        self.hand.step(1000)
+        self.assertTrue(self.hand.Touching)
         contour.Isosurfaces = [1e9]
         simple.Render(self.view)
-        with self.assertRaisesRegex(haptics.HapticsError, "Surface"):
-            self.hand.step(10)
+        self.hand.step(10)
+        self.assertFalse(self.hand.Touching)
+        self.assertEqual(self.hand.ForceMagnitude, 0.0)
 
     def test_a_chart_is_no_view_to_touch_in(self):
         chart = simple.CreateView("XYChartView")

@@ -10,7 +10,9 @@ import sys
 import time
 
 import numpy as np
+from vtkmodules.util.misc import calldata_type
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.util.vtkConstants import VTK_INT
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 from vtkmodules.vtkRenderingCore import vtkRenderWindowInteractor
 
@@ -160,9 +162,12 @@ def touch(scene, picture, options, window, interrupts, write):
                 outcome[0] = error
 
     if window:
-        interactor.CreateOneShotTimer(int(1000 * seconds))
+        end = interactor.CreateOneShotTimer(int(1000 * seconds))
 
-        def on_timer(_caller, _event):
+        @calldata_type(VTK_INT)
+        def on_timer(_caller, _event, timer):
+            if timer != end:  # the style has timers as well
+                return
             conclude(over=True)
             if not options.stay or outcome[0]:
                 interactor.ExitCallback()
