@@ -215,6 +215,7 @@ void HapticSurface::FollowGeometry(const PullSettings& settings, std::string& er
   }
   this->BuildInput = vtkSmartPointer<vtkPolyData>::New();
   this->BuildInput->ShallowCopy(geometry);
+  this->BuildCells = this->Source->Cells();
   this->StartBuild(settings, std::make_shared<SurfacePreparation>(geometry, options), error);
 }
 

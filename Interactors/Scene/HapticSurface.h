@@ -7,6 +7,7 @@
 #include "haptics/Surface/SurfaceMotion.h"
 #include "haptics/Surface/TriangleSurface.h"
 #include "vtkCallbackCommand.h"
+#include "vtkIdTypeArray.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
@@ -202,7 +203,8 @@ private:
   std::string PreparationError;
   std::string Notice; ///< what is told without anything being refused; whole sentences
   std::shared_ptr<SurfaceBuild> Build;
-  vtkSmartPointer<vtkPolyData> BuildInput; ///< with the arrays as they were when it started
+  vtkSmartPointer<vtkPolyData> BuildInput;    ///< with the arrays as they were when it started
+  vtkSmartPointer<vtkIdTypeArray> BuildCells; ///< SurfaceSource::Cells(), likewise
 
   Snapshot InForce;
   std::shared_ptr<SurfacePreparation> Base;  ///< what InForce was made of
@@ -222,6 +224,7 @@ private:
   bool NeedsBaking = false;
   bool WasRefused = false; ///< a geometry, for the matrix
   CellIds Ids;
+  vtkSmartPointer<vtkIdTypeArray> IdsThrough; ///< SurfaceSource::Cells() that Ids are of
   vtkSmartPointer<vtkPolyData> Kept;
   Properties Feel;                     ///< for InForce
   vtkSmartPointer<vtkPolyData> FeltBy; ///< what Feel was made of, and when

@@ -96,7 +96,7 @@ void HapticSurface::TakeBuild(const PullSettings& settings, std::string& error)
   this->TellJump("A point of it", done->Jump(), settings, this->HasToldLeap);
   if (isOtherGeometry)
   {
-    if (!done->Deforms())
+    if (!done->Deforms() || this->IdsThrough != this->BuildCells)
     {
       this->KeepCellIds();
     }
@@ -131,6 +131,14 @@ void HapticSurface::KeepCellIds()
   auto ids = std::make_shared<std::vector<vtkIdType>>();
   vtkIdTypeArray* array = this->Base->OriginalCells();
   ids->assign(array->GetPointer(0), array->GetPointer(0) + array->GetNumberOfValues());
+  this->IdsThrough = this->BuildCells;
+  if (this->IdsThrough)
+  {
+    for (vtkIdType& id : *ids)
+    {
+      id = this->IdsThrough->GetValue(id);
+    }
+  }
   this->Ids = std::move(ids);
 }
 }

@@ -2,20 +2,6 @@
 
 namespace haptics
 {
-namespace
-{
-vtkAlgorithmOutput* GeometryOf(vtkMapper* mapper, std::string& error)
-{
-  vtkAlgorithmOutput* geometry = mapper ? mapper->GetInputConnection(0, 0) : nullptr;
-  if (!geometry)
-  {
-    error = mapper ? "the actor's mapper has no input; give it some"
-                   : "the actor has no mapper; give it one";
-  }
-  return geometry;
-}
-}
-
 SurfaceSource::~SurfaceSource() = default;
 
 PortSource::PortSource(vtkAlgorithmOutput* port)
@@ -31,6 +17,22 @@ vtkAlgorithmOutput* PortSource::Geometry(std::string&)
   return this->Port;
 }
 
+MapperSource::~MapperSource() = default;
+
+vtkAlgorithmOutput* MapperSource::GeometryOf(vtkMapper* mapper, std::string& error)
+{
+  vtkAlgorithmOutput* const geometry = mapper ? mapper->GetInputConnection(0, 0) : nullptr;
+  if (!geometry)
+  {
+    error = mapper ? "the actor's mapper has no input; give it some"
+                   : "the actor has no mapper; give it one";
+    return nullptr;
+  }
+  vtkAlgorithmOutput* const kept = this->Clipped->Follow(mapper, geometry, this->Matrix());
+  this->IsClipped = kept != nullptr;
+  return kept ? kept : geometry;
+}
+
 ActorSource::ActorSource(vtkActor* actor)
   : Drawn(actor)
 {
@@ -40,7 +42,7 @@ ActorSource::~ActorSource() = default;
 
 vtkAlgorithmOutput* ActorSource::Geometry(std::string& error)
 {
-  return GeometryOf(this->Drawn->GetMapper(), error);
+  return this->GeometryOf(this->Drawn->GetMapper(), error);
 }
 
 Matrix4 ActorSource::Matrix()
@@ -59,6 +61,6 @@ PartSource::~PartSource() = default;
 
 vtkAlgorithmOutput* PartSource::Geometry(std::string& error)
 {
-  return GeometryOf(this->Mapper, error);
+  return this->GeometryOf(this->Mapper, error);
 }
 }

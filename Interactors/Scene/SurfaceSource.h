@@ -2,10 +2,13 @@
 #define Haptics_SurfaceSource_h
 
 #include "haptics/Scene/ActorMatrix.h"
+#include "haptics/Scene/ClippedGeometry.h"
 #include "vtkActor.h"
 #include "vtkAlgorithm.h"
 #include "vtkAlgorithmOutput.h"
+#include "vtkIdTypeArray.h"
 #include "vtkMapper.h"
+#include "vtkNew.h"
 #include "vtkSmartPointer.h"
 
 #include <string>
@@ -22,6 +25,8 @@ public:
   virtual ~SurfaceSource();
   /// Null where there is none, with an `error` that says what to do.
   virtual vtkAlgorithmOutput* Geometry(std::string& error) = 0;
+  /// For each cell of the geometry, up to date, the one that was given; null where it is the same.
+  virtual vtkIdTypeArray* Cells() const { return nullptr; }
   /// From the geometry's frame to the world.
   virtual Matrix4 Matrix() { return IdentityMatrix; }
   /// Whether the matrix may change.
@@ -45,8 +50,26 @@ private:
   vtkSmartPointer<vtkAlgorithmOutput> Port;
 };
 
+/// What a mapper draws: its input, without what its clipping planes cut away.
+class MapperSource : public SurfaceSource
+{
+public:
+  ~MapperSource() override;
+  vtkIdTypeArray* Cells() const override
+  {
+    return this->IsClipped ? this->Clipped->Cells() : nullptr;
+  }
+
+protected:
+  vtkAlgorithmOutput* GeometryOf(vtkMapper* mapper, std::string& error);
+
+private:
+  vtkNew<ClippedGeometry> Clipped;
+  bool IsClipped = false;
+};
+
 /// An actor that hangs in no assembly.
-class ActorSource : public SurfaceSource
+class ActorSource : public MapperSource
 {
 public:
   explicit ActorSource(vtkActor* actor);
@@ -62,7 +85,7 @@ private:
 };
 
 /// A place in an assembly, as the assembly says.
-class PartSource : public SurfaceSource
+class PartSource : public MapperSource
 {
 public:
   ~PartSource() override;

@@ -101,7 +101,8 @@ public:
    *
    * An actor is followed: geometry, matrix (mirrored and scaled ones too), visibility and
    * pickability; one that is hidden or not pickable is not touched. Adding it again returns the id
-   * that it has. Geometry given directly is in the world frame.
+   * that it has. What its mapper's clipping planes cut away is not touched; they are in the world
+   * frame, as the mapper has them. Geometry given directly is in the world frame.
    *
    * One that is dragged or turned gets to its new place over the time between two updates, at most
    * 0.1 s, and takes the hand along or pushes it. What would have to be faster than 5 m/s in the
