@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 using namespace haptics;
 using namespace haptics::testing;
@@ -396,6 +397,36 @@ TEST(GodObject, ContinuesWhereAnotherStands)
   second.Continue(first);
   const Contact& contact = second.Update({ 0.001, 0, -0.01 });
   ExpectAt(contact, { 0.001, 0, 0 }, 1e-11);
+}
+
+// A recording that is played gives the same again, whatever was touched before it.
+TEST(GodObject, PlacedItFeelsTheSameToTheLastDigitWhateverWasBefore)
+{
+  const auto surface = MakeSurface(Icosphere(3, 0.05));
+  const auto stroke = [](double turn, int tick)
+  {
+    const double angle = 0.002 * tick + turn;
+    return 0.048 * Unit({ std::cos(angle), std::sin(angle), 0.3 * std::sin(7.0 * angle) });
+  };
+  const auto positions = [&](GodObject& god)
+  {
+    std::vector<Vec3> all;
+    god.Place({ 0.06, 0, 0 });
+    for (int tick = 0; tick < 3000; ++tick)
+    {
+      all.push_back(god.Update(stroke(0.0, tick)).Position);
+    }
+    return all;
+  };
+  GodObject unused({ surface });
+  const std::vector<Vec3> expected = positions(unused);
+  GodObject used({ surface });
+  for (int tick = 0; tick < 5000; ++tick)
+  {
+    used.Update(stroke(2.0, tick));
+  }
+  EXPECT_EQ(positions(used), expected);
+  EXPECT_EQ(positions(used), expected);
 }
 
 TEST(GodObject, IsFreeWithoutSurfaces)

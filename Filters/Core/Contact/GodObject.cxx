@@ -67,20 +67,22 @@ void GodObject::Implementation::Place(const Vector& position)
   this->Carried = Vector(0.0);
   this->Active.Clear();
   this->Cone.Reset();
+  this->LastHip = position;
+  this->Refused = {};
   for (Mover& mover : this->Movers)
   {
     this->TakePose(mover);
   }
   for (std::size_t i = 0; i < this->Felt; ++i)
   {
-    this->Sets[i].Place(position);
+    this->Sets[i].Restart(position);
   }
   for (std::size_t i = this->Felt; isFirst && i < this->Sets.size(); ++i)
   {
     SurfaceMotion* const motion = this->Surfaces[i].Motion.get();
     this->Sets[i].SetFrame(
       this->FrameOf(static_cast<std::int32_t>(i), motion ? motion->Advance(0.0) : RigidPose()));
-    this->Sets[i].Place(position);
+    this->Sets[i].Restart(position);
   }
 }
 

@@ -71,6 +71,16 @@ void WorkingSet::Place(const Vector& position)
   this->Covered = Region::Nothing;
 }
 
+void WorkingSet::Restart(const Vector& position)
+{
+  this->EmptyRadius = 0.0;
+  this->RadiusToTry = this->Touched->Radius();
+  this->LargestToTry = HUGE_VAL;
+  this->MostInBall = FewInBall;
+  this->Place(position);
+  this->GatheredAt = this->Position;
+}
+
 void WorkingSet::Continue(const WorkingSet& previous)
 {
   this->MinimumClearance = std::max(this->MinimumClearance, previous.MinimumClearance);

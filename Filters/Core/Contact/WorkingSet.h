@@ -70,6 +70,9 @@ public:
 
   /// Puts the god-object somewhere without moving it there.
   void Place(const Vector& position);
+  /// The same, and forgets what it has learned of the surface: what follows is the same to the last
+  /// digit, whatever was touched before.
+  void Restart(const Vector& position);
   /// Stands where another set of the same surface has its god-object.
   void Continue(const WorkingSet& previous);
   /// Stands where another set had its god-object, of a surface that has changed all at once. False
@@ -242,14 +245,18 @@ private:
   double Elapsed = 0.0;      ///< [s] of a deformation
   bool IsSweepClear = false; ///< to Target
 
+  /// An engine that finds more in a ball is stopped, and a ball of half the radius is tried. Where
+  /// even the smallest ball has more, as near the tip of a fan, more are let through.
+  static constexpr std::int32_t FewInBall = 64;
+
   Region Covered = Region::Nothing;
-  Vector Centre{ 0 };             ///< of the ball; start of the segment
-  double Radius = 0.0;            ///< of the ball
-  double RadiusToTry = 0.0;       ///< next time
-  double LargestToTry = HUGE_VAL; ///< below a radius that had too many, for some time
-  std::int32_t MostInBall = 64;   ///< where the engine is stopped
-  Vector GatheredAt{ 0 };         ///< where the god-object was when the last ball was gathered
-  Vector EmptyCentre{ 0 };        ///< of a ball in which no facet is felt: nothing to look at
+  Vector Centre{ 0 };                  ///< of the ball; start of the segment
+  double Radius = 0.0;                 ///< of the ball
+  double RadiusToTry = 0.0;            ///< next time
+  double LargestToTry = HUGE_VAL;      ///< below a radius that had too many, for some time
+  std::int32_t MostInBall = FewInBall; ///< where the engine is stopped
+  Vector GatheredAt{ 0 };              ///< where the god-object was when the last ball was gathered
+  Vector EmptyCentre{ 0 };             ///< of a ball in which no facet is felt: nothing to look at
   double EmptyRadius = 0.0;
   Vector Position{ 0 };            ///< god-object, local frame
   Vector Target{ 0 };              ///< of the last cast or certificate, local frame

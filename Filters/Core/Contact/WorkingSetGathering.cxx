@@ -10,9 +10,6 @@ namespace haptics
 {
 namespace
 {
-/// An engine that finds more in a ball is stopped, and a ball of half the radius is tried. Where
-/// even the smallest ball has more, as near the tip of a fan, more are let through.
-constexpr std::int32_t FewInBall = 64;
 /// About as many make gathering rare and scanning quick.
 constexpr double WantedInBall = 16.0;
 /// How far ahead of the god-object a ball is centred, in radii.
