@@ -4,8 +4,11 @@
 #include "vtkAlgorithmOutput.h"
 #include "vtkBoundingBox.h"
 #include "vtkCommand.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkDataSet.h"
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkGodObjectFilter.h"
+#include "vtkHyperTreeGrid.h"
 #include "vtkPolyData.h"
 
 #include <utility>
@@ -173,6 +176,21 @@ void HapticSurface::Follow(const PullSettings& settings, std::string& error)
   }
 }
 
+/// What makes polydata of what is connected.
+const char* HapticSurface::RemedyFor(vtkDataObject* output)
+{
+  if (vtkCompositeDataSet::SafeDownCast(output))
+  {
+    return "put a vtkCompositeDataGeometryFilter before it"; // vtkGeometryFilter keeps the blocks
+  }
+  if (vtkHyperTreeGrid::SafeDownCast(output))
+  {
+    return "put a vtkHyperTreeGridGeometry before it";
+  }
+  return vtkDataSet::SafeDownCast(output) ? "put a vtkGeometryFilter before it"
+                                          : "connect a source of a surface";
+}
+
 /// Null, and why, where what is connected is no polydata.
 vtkPolyData* HapticSurface::UpdateGeometry(std::string& error)
 {
@@ -184,7 +202,7 @@ vtkPolyData* HapticSurface::UpdateGeometry(std::string& error)
   if (!geometry)
   {
     error = std::string("the geometry is ") + (output ? output->GetClassName() : "missing") +
-      ", not vtkPolyData; put a vtkGeometryFilter before it";
+      ", not vtkPolyData; " + RemedyFor(output);
   }
   return geometry;
 }

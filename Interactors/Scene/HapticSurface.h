@@ -165,6 +165,7 @@ private:
   Version Current();
   void Follow(const PullSettings& settings, std::string& error);
   bool IsThere() const { return this->Shown && !this->IsEmpty; }
+  static const char* RemedyFor(vtkDataObject* output);
   vtkPolyData* UpdateGeometry(std::string& error);
   void FollowGeometry(const PullSettings& settings, std::string& error);
   bool FollowMatrix(const PullSettings& settings, std::string& error);

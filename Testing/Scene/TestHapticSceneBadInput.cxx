@@ -4,11 +4,16 @@
 
 #include "vtkActor.h"
 #include "vtkCellArray.h"
+#include "vtkCompositeDataGeometryFilter.h"
+#include "vtkGeometryFilter.h"
 #include "vtkGodObjectFilter.h"
 #include "vtkHapticProbe.h"
+#include "vtkImageData.h"
+#include "vtkMultiBlockDataSet.h"
 #include "vtkPoints.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkSphereSource.h"
+#include "vtkTrivialProducer.h"
 
 #include <gtest/gtest.h>
 
@@ -86,6 +91,44 @@ TEST(HapticSceneBadInput, ASurfaceTakenAwayWhileTouchedIsFeltNoMore)
     EXPECT_EQ(hand.Scene->GetProbe()->GetSurface(), -1) << "way " << index;
     EXPECT_EQ(ends.Count, 1) << "way " << index;
     EXPECT_EQ(errors.Count, index >= 4 ? 1 : 0) << "only a metre in a tick is told; way " << index;
+  }
+}
+
+TEST(HapticSceneBadInput, TheFilterThatIsAdvisedMakesOtherDataTouchable)
+{
+  vtkNew<vtkSphereSource> sphere;
+  sphere->Update();
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, sphere->GetOutput());
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(3, 3, 3);
+  vtkNew<vtkCompositeDataGeometryFilter> ofBlocks;
+  vtkNew<vtkGeometryFilter> ofImage;
+  const struct
+  {
+    vtkDataObject* Data;
+    vtkPolyDataAlgorithm* Remedy;
+  } kinds[] = { { blocks, ofBlocks }, { image, ofImage } };
+  for (const auto& kind : kinds)
+  {
+    vtkNew<vtkTrivialProducer> source;
+    source->SetOutput(kind.Data);
+    vtkNew<vtkHapticScene> scene;
+    EventCounter errors(scene, vtkCommand::ErrorEvent);
+    scene->AddSurface(source->GetOutputPort());
+    scene->Update();
+    EXPECT_EQ(errors.Count, 1);
+    const std::string advice = std::string("put a ") + kind.Remedy->GetClassName() + " before it";
+    EXPECT_NE(std::string(scene->GetErrorMessage()).find(advice), std::string::npos)
+      << scene->GetErrorMessage();
+
+    kind.Remedy->SetInputConnection(source->GetOutputPort());
+    vtkNew<vtkHapticScene> advised;
+    EventCounter none(advised, vtkCommand::ErrorEvent);
+    advised->AddSurface(kind.Remedy->GetOutputPort());
+    advised->Update();
+    EXPECT_EQ(none.Count, 0);
+    EXPECT_STREQ(advised->GetErrorMessage(), "");
   }
 }
 

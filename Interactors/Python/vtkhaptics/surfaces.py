@@ -31,6 +31,11 @@ READERS = {
 FORMATS = sorted([*READERS, ".gii", ".off"])
 CRASHING = (".obj", ".ply", ".vtk", ".glb", ".gltf", ".off", ".nii", ".nrrd", ".nhdr")
 
+NO_POLYGONS_HINT = "Check that the file is whole and holds triangles, polygons or strips."
+STRIPS_HINT = (
+    "It holds triangle strips, which VTK does not read from PLY: save it with triangles instead, "
+    "for example with MeshLab."
+)
 # With expat 2.6, or an older one that Debian mended against the same attack, VTK 9.1 and 9.2 stop
 # with an XML error at the appended data of all but the smallest files.
 APPENDED_DATA_HINT = (
@@ -77,6 +82,14 @@ def run_reader(reader, progress=None):
     if failures:
         return warnings or ["the reader gave up without saying why."]
     return []
+
+
+def _has_ply_strips(path, extension):
+    """Whether the header of a PLY file names triangle strips, which VTK passes over."""
+    if extension != ".ply":
+        return False
+    with open(path, "rb") as file:
+        return b"element tristrips" in file.read(4096).split(b"end_header")[0]
 
 
 def _has_appended_data(path, extension):
@@ -352,6 +365,6 @@ def _read_unpacked(path, unpacked, progress, contour):
         raise SurfaceError(
             f"{path}: has no polygons, hence no surface ({surface.GetNumberOfPoints()} points, "
             f"{surface.GetNumberOfLines()} lines). "
-            "Check that the file is whole and holds triangles, polygons or strips."
+            + (STRIPS_HINT if _has_ply_strips(path, extension) else NO_POLYGONS_HINT)
         )
     return surface
