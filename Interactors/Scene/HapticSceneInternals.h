@@ -31,6 +31,7 @@ public:
   haptics::SceneEvents Events;
   std::array<double, 16> HomeWorkspace{}; ///< as it was set or fitted last
   bool WorkspaceChosen = false;           ///< it was set or fitted at all
+  bool HasWarnedOfReach = false;          ///< of a surface that is there
   int DeviceState = 0;
   bool Clutched = false;
   bool ClutchHeld = false; ///< the device's button

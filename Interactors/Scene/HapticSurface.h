@@ -87,6 +87,12 @@ public:
   }
   /// What people call it; empty where nobody has given it a name.
   std::string Name;
+  /// How messages begin: "Surface 0", or "Surface 0 (its name)".
+  std::string Title() const
+  {
+    return "Surface " + std::to_string(this->Identifier) +
+      (this->Name.empty() ? "" : " (" + this->Name + ")");
+  }
   /// The actor that was given; null for geometry and for the part of an assembly.
   vtkActor* Actor() const { return this->Source->Actor(); }
   /// Whether it follows an actor or the part of an assembly.

@@ -50,6 +50,12 @@ HapticSurface* SurfaceSet::Find(vtkActor* actor) const
   return nullptr;
 }
 
+std::string SurfaceSet::Title(int id) const
+{
+  const HapticSurface* const surface = this->Find(id);
+  return surface ? surface->Title() : "Surface " + std::to_string(id);
+}
+
 void SurfaceSet::SetGripped(int id, bool isGripped)
 {
   HapticSurface* const surface = this->Find(id);
@@ -71,8 +77,7 @@ bool SurfaceSet::Pull(const PullSettings& settings, std::vector<std::string>& er
     this->BuildsStarted += surface->Building() && surface->Building() != before ? 1 : 0;
     if (!error.empty())
     {
-      errors.push_back("Surface " + std::to_string(surface->Id()) +
-        (surface->Name.empty() ? "" : " (" + surface->Name + ")") + ": " + error);
+      errors.push_back(surface->Title() + ": " + error);
     }
   }
   this->Changed = false;

@@ -46,6 +46,8 @@ public:
   const std::vector<std::unique_ptr<HapticSurface>>& All() const { return this->Surfaces; }
   HapticSurface* Find(int id) const;
   HapticSurface* Find(vtkActor* actor) const;
+  /// HapticSurface::Title() of an id, whether there still is one or not.
+  std::string Title(int id) const;
 
   /// Grips a surface or lets go of it, from the next publication on.
   void SetGripped(int id, bool isGripped);

@@ -95,6 +95,7 @@ bool vtkHapticScene::Engage()
   this->PullState();
   this->LetGo(); // who stepped has ended with that
   this->PullSurfaces();
+  this->WarnOfReach();
   if (!this->Servo->Start())
   {
     this->ErrorMessage = this->Servo->GetErrorMessage();
@@ -143,6 +144,10 @@ bool vtkHapticScene::Update()
 {
   const bool moved = this->PullState();
   const bool changed = this->PullSurfaces();
+  if (this->Engaged)
+  {
+    this->WarnOfReach(); // of what has been built or added meanwhile
+  }
   return moved || changed;
 }
 
@@ -173,6 +178,7 @@ int vtkHapticScene::Step(int n)
   this->PullState();
   this->PullSurfaces();
   this->FinishBuilds();
+  this->WarnOfReach();
   int done = 0;
   while (done < n)
   {

@@ -211,7 +211,9 @@ public:
 
   ///@{
   /**
-   * Device to world: rotation, uniform scale [world unit/m], translation. Default the identity.
+   * Device to world: rotation, uniform scale [world unit/m], translation. Default the identity: a
+   * world unit is a metre in the hand. A surface more than 30 times as large as the device then
+   * reaches, in millimetres for instance, is a warning, once, when the scene engages or steps.
    * False and an error where the matrix is anything else (a mirror, a shear, not finite); the last
    * one stays. The god-object starts anew at the HIP, so that no jump is felt.
    */
@@ -432,6 +434,7 @@ private:
   void FinishBuilds();
   bool MoveWorkspace(vtkMatrix4x4* deviceToWorld);
   void TellOfBuilds();
+  void WarnOfReach();
   bool PullState();
   void PullRecords();
   bool TakeState();

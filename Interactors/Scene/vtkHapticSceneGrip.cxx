@@ -36,7 +36,7 @@ bool vtkHapticScene::GripSurface(int id)
   this->PullSurfaces(); // it may have been hidden meanwhile
   haptics::HapticGrip& grip = this->Internal->Grip;
   const haptics::HapticSurface* surface = this->Internal->Surfaces.Find(id);
-  const std::string name = "Surface " + std::to_string(id);
+  const std::string name = this->Internal->Surfaces.Title(id);
   if (surface && grip.Surface() == id)
   {
     return true;
@@ -130,6 +130,6 @@ void vtkHapticScene::ObeyGripButton()
   // Told once: the button may be for more than this.
   else if (grip.Refused.insert(this->TouchedSurface).second)
   {
-    vtkWarningMacro("Surface " << this->TouchedSurface << NoActor);
+    vtkWarningMacro(<< this->Internal->Surfaces.Title(this->TouchedSurface) << NoActor);
   }
 }

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 bool vtkHapticScene::SetWorkspaceTransform(vtkMatrix4x4* deviceToWorld)
 {
@@ -118,6 +119,41 @@ bool vtkHapticScene::EngageInView(vtkCamera* camera)
     }
   }
   return this->Engage();
+}
+
+/// Of a surface in another unit than the metre, where nobody has chosen a workspace: there a device
+/// touches next to nothing of it, with a force that has little to do with it. Once, until there is
+/// none.
+void vtkHapticScene::WarnOfReach()
+{
+  constexpr double largestRatio = 30.0;
+  const double* const bounds = this->GetDevice()->GetWorkspaceBounds();
+  const double reach =
+    std::max({ bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4] });
+  const double scale = std::cbrt(this->Workspace->Determinant());
+  const auto& surfaces = this->Internal->Surfaces.All();
+  const auto found = std::find_if(surfaces.begin(), surfaces.end(),
+    [limit = largestRatio * reach * scale](const auto& surface)
+    {
+      const auto touched = surface->Touched();
+      return touched && 2.0 * touched->Radius() > limit;
+    });
+  const bool isTooLarge =
+    !this->Internal->WorkspaceChosen && reach > 0.0 && found != surfaces.end();
+  if (isTooLarge && !this->Internal->HasWarnedOfReach)
+  {
+    std::ostringstream text;
+    text.precision(2);
+    text << (*found)->Title() << " has a size of " << 2.0 * (*found)->Touched()->Radius()
+         << " world units, and the device reaches over " << reach * scale
+         << " of them: no workspace was set, so that "
+         << (scale == 1.0 ? "a world unit is a metre" : "the workspace was scaled alone")
+         << " in the hand. Call FitWorkspace() or EngageInView() to lay the workspace over the "
+            "surfaces, or set the scale with SetWorkspaceTransform(), such as 1000 for a surface "
+            "in millimetres in its true size.";
+    vtkWarningMacro(<< text.str());
+  }
+  this->Internal->HasWarnedOfReach = isTooLarge;
 }
 
 bool vtkHapticScene::ScaleWorkspace(double factor)

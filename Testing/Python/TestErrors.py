@@ -50,6 +50,18 @@ class Errors(unittest.TestCase):
             scene.Step(1)
         self.assertEqual(scene.Step(3), 3)
 
+    def test_a_surface_in_millimetres_warns_once_with_the_remedy(self):
+        device, scene = make()
+        table = vtkPlaneSource()
+        table.SetPoint1(100.0, 0.0, 0.0)
+        table.SetPoint2(0.0, 100.0, 0.0)
+        scene.AddSurface(table.GetOutputPort())
+        with self.assertWarnsRegex(HapticsWarning, r"no workspace was set.*FitWorkspace\(\)"):
+            scene.Step(1)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            scene.Step(1)
+
     def test_settings(self):
         device, scene = make()
         with self.raises("vtkHapticServo|vtkHapticScene", "-1"):

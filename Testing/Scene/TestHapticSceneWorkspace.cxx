@@ -1,6 +1,7 @@
 #include "SceneTestTools.h"
 
 #include "vtkActor.h"
+#include "vtkCallbackCommand.h"
 #include "vtkCamera.h"
 #include "vtkCubeSource.h"
 #include "vtkDoubleArray.h"
@@ -15,7 +16,9 @@
 
 #include <chrono>
 #include <functional>
+#include <string>
 #include <thread>
+#include <vector>
 
 namespace
 {
@@ -435,4 +438,103 @@ TEST(HapticSceneWorkspace, ARunningHandThatSinksIsNotLetIn)
       scene->Release();
     }
   }
+}
+
+namespace
+{
+/// What a subject has warned of, kept out of the output.
+class Warnings
+{
+public:
+  explicit Warnings(vtkObject* subject)
+  {
+    this->Command->SetClientData(this);
+    this->Command->SetCallback([](vtkObject*, unsigned long, void* self, void* text)
+      { static_cast<Warnings*>(self)->Texts.emplace_back(static_cast<const char*>(text)); });
+    subject->AddObserver(vtkCommand::WarningEvent, this->Command);
+  }
+  std::vector<std::string> Texts;
+
+private:
+  vtkNew<vtkCallbackCommand> Command;
+};
+
+/// A ball of 100 mm under a hand that reaches over 0.2 m, where nobody has said what a unit is.
+struct BallInMillimetres
+{
+  LedHand Hand;
+  vtkNew<vtkSphereSource> Ball;
+  int Id;
+
+  BallInMillimetres()
+  {
+    this->Hand.Device->SetWorkspaceBounds(-0.1, 0.1, -0.1, 0.1, -0.1, 0.1);
+    this->Ball->SetRadius(50.0);
+    this->Id = this->Hand.Scene->AddSurface(this->Ball->GetOutputPort());
+    this->Hand.Scene->SetSurfaceName(this->Id, "ball.stl");
+  }
+};
+}
+
+TEST(HapticSceneWorkspace, ASurfaceFarLargerThanTheDeviceReachesIsReportedOnce)
+{
+  BallInMillimetres scene;
+  Warnings warnings(scene.Hand.Scene);
+  scene.Hand.Scene->Update(); // the workspace may be set yet
+  EXPECT_TRUE(warnings.Texts.empty());
+  scene.Hand.Scene->Step(1);
+  scene.Hand.Scene->Step(1);
+  ASSERT_TRUE(scene.Hand.EngagePatiently());
+  scene.Hand.Scene->Update();
+  scene.Hand.Scene->Release();
+  ASSERT_EQ(warnings.Texts.size(), 1U);
+  for (const char* words : { "Surface 0 (ball.stl) ", "FitWorkspace()", "EngageInView()" })
+  {
+    EXPECT_NE(warnings.Texts[0].find(words), std::string::npos) << warnings.Texts[0];
+  }
+  scene.Ball->SetRadius(0.05);
+  scene.Hand.Scene->Step(1);
+  scene.Ball->SetRadius(50.0);
+  scene.Hand.Scene->Step(1);
+  EXPECT_EQ(warnings.Texts.size(), 2U) << "it was right meanwhile";
+}
+
+TEST(HapticSceneWorkspace, EachRemedyForALargeSurfaceHelps)
+{
+  const std::vector<std::function<void(vtkHapticScene*)>> remedies = {
+    [](vtkHapticScene* scene) { scene->FitWorkspace(); },
+    [](vtkHapticScene* scene)
+    {
+      vtkNew<vtkCamera> camera;
+      scene->EngageInView(camera);
+      scene->Release();
+    },
+    [](vtkHapticScene* scene)
+    {
+      vtkNew<vtkMatrix4x4> millimetres;
+      for (int i = 0; i < 3; ++i)
+      {
+        millimetres->SetElement(i, i, 1000.0);
+      }
+      scene->SetWorkspaceTransform(millimetres);
+    },
+    [](vtkHapticScene* scene) { scene->ScaleWorkspace(1000.0); },
+  };
+  for (const auto& remedy : remedies)
+  {
+    BallInMillimetres scene;
+    Warnings warnings(scene.Hand.Scene);
+    remedy(scene.Hand.Scene);
+    scene.Hand.Scene->Step(1);
+    EXPECT_TRUE(warnings.Texts.empty()) << warnings.Texts[0];
+  }
+}
+
+TEST(HapticSceneWorkspace, ASurfaceThatTheDeviceCanExploreIsNotReported)
+{
+  BallInMillimetres scene;
+  Warnings warnings(scene.Hand.Scene);
+  scene.Ball->SetRadius(1.0);
+  scene.Hand.Scene->Step(1);
+  EXPECT_TRUE(warnings.Texts.empty());
 }
