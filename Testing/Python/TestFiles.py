@@ -9,7 +9,8 @@ import subprocess
 import sys
 import tempfile
 
-from vtkmodules.util.numpy_support import vtk_to_numpy
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet
 from vtkmodules.vtkFiltersCore import vtkAppendFilter
 from vtkmodules.vtkFiltersSources import vtkSphereSource
@@ -202,6 +203,18 @@ def test_strips_of_a_ply_file_are_named(folder):
         raise AssertionError("VTK reads strips from PLY by now: let them be touched")
 
 
+def test_an_array_that_is_the_same_everywhere_colours_nothing(folder):
+    path = os.path.join(folder, "plain.obj")  # VTK's reader adds ids of groups and materials
+    with open(path, "w", encoding="ascii") as file:
+        file.write("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n")
+    surface = surfaces.read_surface(path)
+    assert surfaces.default_array(surface) is None, surfaces.default_array(surface)
+    values = numpy_to_vtk(np.array([0.0, 0.0, 1.0, 0.0]), deep=True)
+    values.SetName("height")
+    surface.GetPointData().AddArray(values)
+    assert surfaces.default_array(surface) == "height"
+
+
 def test_formats_are_told():
     for extension in (".vtu", ".vti", ".vtm", ".off", ".glb", ".nii", ".nrrd", ".gii"):
         assert extension in surfaces.FORMATS, extension
@@ -212,4 +225,5 @@ with tempfile.TemporaryDirectory() as scratch:
     test_images_and_contours(scratch)
     test_no_file_ends_the_process(scratch, made)
     test_strips_of_a_ply_file_are_named(scratch)
+    test_an_array_that_is_the_same_everywhere_colours_nothing(scratch)
 test_formats_are_told()

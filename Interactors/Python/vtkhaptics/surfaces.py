@@ -203,16 +203,22 @@ def value_arrays(surface):
 
 def default_array(surface):
     """Name of the array to colour by where nobody has said: the active one, or else the first with
-    one value a point or cell. None where there is none."""
+    one value a point or cell. None where there is none that differs anywhere."""
     points, cells = surface.GetPointData(), surface.GetCellData()
     active = points.GetScalars() or cells.GetScalars()
-    if active and active.GetName():
+    if active and active.GetName() and _differs(active):
         return active.GetName()
     for name in value_arrays(surface):
         array = points.GetArray(name) or cells.GetArray(name)
-        if array.GetNumberOfComponents() == 1:
+        if array.GetNumberOfComponents() == 1 and _differs(array):
             return name
     return None
+
+
+def _differs(array):
+    """Whether an array has more than one value, in any component."""
+    ranges = (array.GetRange(i) for i in range(array.GetNumberOfComponents()))
+    return any(low < high for low, high in ranges)
 
 
 def unit_note(path, surface, unit=None):
