@@ -99,6 +99,27 @@ TEST(ServoSafety, NoPropertyAllocates)
   EXPECT_NE(hand.Last, Vec3{});
 }
 
+TEST(ServoSafety, SharingAContactAllocatesNothing)
+{
+  const auto surface = MakeSurface(Icosphere(3, 0.05));
+  GodObject god({ Touchable(surface, Everywhere(400.0, 1.0, 0.5, 0.3, 0.2)), { surface },
+    Touchable(MakeSurface(Icosphere(4, 0.05)), Rough(0.3, 0.2)) });
+  god.Update({ 0.06, 0, 0 });
+  IsCounting = true;
+  Allocations = 0;
+  int shared = 0;
+  for (int tick = 0; tick < 5000; ++tick)
+  {
+    const double a = 2e-3 * tick;
+    const Contact& contact =
+      god.Update({ 0.048 * std::cos(a), 0.048 * std::sin(a), 0.01 * std::sin(0.3 * a) });
+    shared += contact.Material.PlainShare > 0.0 && contact.Material.PlainShare < 1.0;
+  }
+  IsCounting = false;
+  EXPECT_EQ(Allocations, 0);
+  EXPECT_GT(shared, 0);
+}
+
 TEST(ServoSafety, NothingThatMovesAllocates)
 {
   const auto ball = MakeSurface(Icosphere(4, 0.05));

@@ -38,6 +38,7 @@ GodObject::Implementation::Implementation(std::vector<TouchedSurface> surfaces)
       continue;
     }
     ++this->Felt;
+    this->SharingUnit = std::max(this->SharingUnit, touched.Surface->Clearance());
     if (touched.Surface->Deforms())
     {
       this->Deforming.push_back(index);
@@ -56,6 +57,7 @@ GodObject::Implementation::Implementation(std::vector<TouchedSurface> surfaces)
     }
   }
   this->Last = this->Felt;
+  this->Along.resize(this->Felt);
 }
 
 void GodObject::Implementation::Place(const Vector& position)

@@ -119,6 +119,11 @@ struct Contact
 /// friction's cone (class Friction). It only changes what an update aims at: all of the above
 /// stands.
 ///
+/// **Several surfaces in one place**: the push on a plane is shared by the materials of all
+/// surfaces that lie along it there, smoothly over a few clearances, whatever their order in the
+/// list. Constraints name the one plane that holds; of planes that coincide, that of the first
+/// surface.
+///
 /// **Bounded**: at most 16 passes of 12 casts, and 131,072 triangles looked up in all; where one
 /// place needs more, the god-object is held there (UpdateStatus::Overloaded). As much again for
 /// surfaces that move, which are taken on in up to 32 parts of a tick.

@@ -4,6 +4,7 @@
 #include "haptics/Contact/GodObject.h"
 #include "haptics/Contact/WorkingSet.h"
 #include "haptics/Material/Friction.h"
+#include "haptics/Material/MaterialBlend.h"
 
 namespace haptics
 {
@@ -81,6 +82,9 @@ private:
 
   void WalkWithFriction(const Vector& hip);
   Vector AimWithFriction(const Vector& hip);
+  void AddMaterials(const ActivePlane& plane, double push, MaterialBlend& blend);
+  void AddMaterial(
+    const FacetId& facet, double push, const Vector& normal, MaterialBlend& blend) const;
   bool Walk(const Vector& goal);
   bool Pass(const Vector& hip);
   bool Release(const Vector& goal);
@@ -114,6 +118,8 @@ private:
   std::vector<Mover> Movers;
   std::vector<std::int32_t> Deforming; ///< surfaces
   WorkBudget Budget;
+  double SharingUnit = 0.0;          ///< largest clearance of those that are felt
+  std::vector<FacetAlong> Along;     ///< of each that is felt, where a plane holds
   std::vector<std::int32_t> Scratch; ///< for questions to another god-object's surfaces
   int PassesLeft = 0;                ///< of this update
   int ReleasesLeft = 0;

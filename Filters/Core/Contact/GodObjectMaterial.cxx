@@ -1,5 +1,4 @@
 #include "haptics/Contact/GodObjectImplementation.h"
-#include "haptics/Material/MaterialBlend.h"
 
 #include <algorithm>
 
@@ -12,6 +11,9 @@ namespace
 constexpr int LargestNumberOfSlides = 4;
 /// A cast that looks from far away ends at a waypoint, short of what it has found.
 constexpr int LargestNumberOfLandings = 3;
+/// Over so many of the largest clearance a surface that ends, or lies lower, stops to count beside
+/// the one that holds.
+constexpr double SharingWidth = 6.0;
 }
 
 /// Moves as far as friction lets the HIP pull the god-object.
@@ -73,36 +75,79 @@ void GodObject::Implementation::UpdateMaterial()
   {
     const ActivePlane& plane = this->Active.Support(i);
     const double push = glm::dot(plane.Normal, displacement);
-    if (!(push > 0.0))
+    if (push > 0.0)
     {
-      continue;
+      this->AddMaterials(plane, push, blend);
     }
-    Material feel;
-    Vector shaded(0.0);
-    const TouchedSurface& touched = this->Surfaces[plane.Facet.Surface];
-    if (const SurfaceProperties* properties = touched.Properties.get())
-    {
-      const std::int32_t triangle = plane.Facet.Triangle;
-      const WorkingSet& set = this->Sets[plane.Facet.Surface];
-      const auto weights = set.CornerWeights(triangle);
-      feel = properties->At(touched.Surface->Triangles()[triangle], triangle, weights);
-      if (properties->HasGradients())
-      {
-        properties->AddGradients(touched.Surface->Triangles()[triangle], triangle, weights,
-          set.WeightGradients(triangle), feel);
-      }
-      if (properties->IsShaded())
-      {
-        shaded = set.Frame().VectorToScene(ToVector(properties->NormalAt(triangle, weights)));
-      }
-    }
-    blend.Add(feel, push, plane.Normal, shaded);
   }
   this->Result.Material = blend.Blended();
   if (this->Result.Material.IsShaded)
   {
     this->Result.Shaded = ToVec3(blend.Shade(displacement));
   }
+}
+
+/// Which surface's plane holds where several lie along each other is a matter of rounding and of
+/// their order: so the push on it is shared by all that lie there, each by its nearest facet.
+void GodObject::Implementation::AddMaterials(
+  const ActivePlane& plane, double push, MaterialBlend& blend)
+{
+  const std::size_t own = static_cast<std::size_t>(plane.Facet.Surface);
+  double sum = 0.0;
+  if (this->Felt > 1)
+  {
+    const double height = glm::dot(plane.Normal, this->Position - plane.Anchor);
+    const double near = std::max(height, this->SharingUnit) + this->SharingUnit;
+    const double far = near + SharingWidth * this->SharingUnit;
+    for (std::size_t i = 0; i < this->Felt; ++i)
+    {
+      this->Along[i] = this->Sets[i].FindAlong(plane.Normal, near, far, this->Budget);
+      sum += this->Along[i].Weight;
+    }
+    if (this->Along[own].Weight > 0.0)
+    {
+      this->Along[own].Triangle = plane.Facet.Triangle;
+    }
+  }
+  if (!(sum > 0.0))
+  {
+    this->AddMaterial(plane.Facet, push, plane.Normal, blend);
+    return;
+  }
+  for (std::size_t i = 0; i < this->Felt; ++i)
+  {
+    const FacetAlong& along = this->Along[i];
+    if (along.Weight > 0.0)
+    {
+      this->AddMaterial({ static_cast<std::int32_t>(i), along.Triangle },
+        push * (along.Weight / sum), plane.Normal, blend);
+    }
+  }
+}
+
+void GodObject::Implementation::AddMaterial(
+  const FacetId& facet, double push, const Vector& normal, MaterialBlend& blend) const
+{
+  Material feel;
+  Vector shaded(0.0);
+  const TouchedSurface& touched = this->Surfaces[facet.Surface];
+  if (const SurfaceProperties* properties = touched.Properties.get())
+  {
+    const std::int32_t triangle = facet.Triangle;
+    const WorkingSet& set = this->Sets[facet.Surface];
+    const auto weights = set.CornerWeights(triangle);
+    feel = properties->At(touched.Surface->Triangles()[triangle], triangle, weights);
+    if (properties->HasGradients())
+    {
+      properties->AddGradients(touched.Surface->Triangles()[triangle], triangle, weights,
+        set.WeightGradients(triangle), feel);
+    }
+    if (properties->IsShaded())
+    {
+      shaded = set.Frame().VectorToScene(ToVector(properties->NormalAt(triangle, weights)));
+    }
+  }
+  blend.Add(feel, push, normal, shaded);
 }
 
 /// Whether no surface feels other than it did: a hand would notice that at once. (One that has

@@ -1,5 +1,6 @@
 #include "haptics/Contact/WorkingSet.h"
 
+#include "haptics/Math/NearestOnTriangle.h"
 #include "haptics/Math/Predicates.h"
 
 #include <algorithm>
@@ -14,6 +15,17 @@ namespace
 constexpr double SlackOfHeight = 1.0 / 16.0;
 /// Of facets met at once so many are compared.
 constexpr int LargestNumberAtOnce = 32;
+/// Facets of two surfaces lie along each other up to a thousandth of a radian, and from 1.8 degrees
+/// on no longer.
+constexpr double SquaredSineOfParallels = 1e-6;
+constexpr double SquaredSineOfOthers = 1e-3;
+
+/// 1 up to `from`, 0 from `to` on, a smooth step between.
+double Fall(double x, double from, double to)
+{
+  const double t = std::clamp((to - x) / (to - from), 0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
+}
 }
 
 WorkingSet::WorkingSet(
@@ -669,6 +681,50 @@ bool WorkingSet::IsPassedOver(
   Vector nearest;
   return this->CoverageAt(plane, position, nearest) == Coverage::Reach &&
     other.PassesOver(this->ToSurface.PointToScene(nearest));
+}
+
+FacetAlong WorkingSet::FindAlong(const Vector& normal, double near, double far, WorkBudget& budget)
+{
+  FacetAlong best;
+  if (this->IsSweeping())
+  {
+    return best;
+  }
+  const bool isBall = this->Covered == Region::Ball;
+  const bool isKnown = isBall && glm::length(this->Position - this->Centre) + far <= this->Radius;
+  const bool isGatheredHere = isBall && this->GatheredAt == this->Position;
+  if (!isKnown && !isGatheredHere && !this->GatherBall(budget))
+  {
+    return best;
+  }
+  const Vector up = this->ToSurface.VectorToLocal(normal);
+  double nearest = HUGE_VAL;
+  for (std::int32_t i = 0; i < this->Count; ++i)
+  {
+    if (!this->MeetsBox(i, this->Position, far))
+    {
+      continue;
+    }
+    const std::int32_t triangle = this->Triangles[i];
+    double cosine = glm::dot(this->FacetNormal(i), up);
+    cosine = this->Touched->TouchesBack(triangle) ? std::abs(cosine) : cosine;
+    const auto [a, b, c] = this->CornersOf(triangle);
+    const Vector way = NearestToOrigin(a - this->Position, b - this->Position, c - this->Position);
+    if (cosine <= 0.0 || glm::dot(way, up) >= 0.0)
+    {
+      continue;
+    }
+    const double distance = glm::length(way);
+    const double weight = Fall(distance, near, far) *
+      Fall(1.0 - cosine * cosine, SquaredSineOfParallels, SquaredSineOfOthers);
+    // Where several count as much, it is the one under the god-object.
+    if (weight > best.Weight || (weight == best.Weight && weight > 0.0 && distance < nearest))
+    {
+      best = { triangle, weight };
+      nearest = distance;
+    }
+  }
+  return best;
 }
 
 std::array<Vec3, 2> WorkingSet::WeightGradients(std::int32_t triangle) const

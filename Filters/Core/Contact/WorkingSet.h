@@ -34,6 +34,13 @@ struct FacetHit
   void Take(const FacetHit& other);
 };
 
+/// A facet that lies along a plane, and how much it counts there, 0 to 1.
+struct FacetAlong
+{
+  std::int32_t Triangle = -1;
+  double Weight = 0.0;
+};
+
 /// @brief The triangles around the god-object, side by side in memory.
 ///
 /// A ball of triangles is gathered from the surface's engine once and serves every cast and every
@@ -140,6 +147,11 @@ public:
   /// false where the budget ends first or the way is not known well enough. Adds to `gap` what is
   /// near the way. Afterwards IsClear() can be asked about `goal`.
   bool IsOpen(const Vector& goal, WorkBudget& budget, NarrowGap& gap);
+
+  /// The facet that lies along a plane with this normal (scene frame), below the god-object: wholly
+  /// up to the distance `near`, from `far` on no longer, by a smooth step between. None where it
+  /// cannot be told. Between motions.
+  FacetAlong FindAlong(const Vector& normal, double near, double far, WorkBudget& budget);
 
   /// How much each corner of a triangle counts where the god-object stands over it: >= 0, sum 1.
   std::array<double, 3> CornerWeights(std::int32_t triangle) const;

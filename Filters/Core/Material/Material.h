@@ -40,8 +40,8 @@ struct Material
   double LargestPlainShare = 1.0; ///< 0 or 1
   double LargestTexture = 0.0;    ///< >= 0
   ///@}
-  /// In place of the stiffness; null: none. Of the surface that is pushed most; it lives as long
-  /// as the god-object.
+  /// In place of the stiffness; null: none. Of the surface that is pushed most, of several
+  /// pushed as much the steepest; it lives as long as the god-object.
   const ForceProfile* Profile = nullptr;
 };
 }

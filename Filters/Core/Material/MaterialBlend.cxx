@@ -1,5 +1,7 @@
 #include "haptics/Material/MaterialBlend.h"
 
+#include "haptics/Material/ForceProfile.h"
+
 #include <algorithm>
 
 namespace haptics
@@ -27,7 +29,11 @@ void MaterialBlend::Add(
   this->Sum.LargestStiffness = std::max(this->Sum.LargestStiffness, feel.LargestStiffness);
   this->Sum.LargestPlainShare = std::max(this->Sum.LargestPlainShare, feel.LargestPlainShare);
   this->Sum.LargestTexture = std::max(this->Sum.LargestTexture, feel.LargestTexture);
-  if (push > this->StrongestPush)
+  // Of those pushed as much the steepest profile, so that their order does not count.
+  const auto slope = [](const ForceProfile* profile)
+  { return profile ? profile->SteepestSlope() : -1.0; };
+  if (push > this->StrongestPush ||
+    (push == this->StrongestPush && slope(feel.Profile) > slope(this->Sum.Profile)))
   {
     this->StrongestPush = push;
     this->Sum.Profile = feel.Profile;

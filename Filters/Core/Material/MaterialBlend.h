@@ -7,7 +7,7 @@
 namespace haptics
 {
 /// @brief What several facets that hold the god-object at once feel like together: each counts by
-/// its share of the push.
+/// its share of the push. What is added in another order is the same to within rounding.
 class MaterialBlend
 {
 public:
