@@ -18,6 +18,12 @@ struct DeviceSample
   /// that is held: the god-object starts anew at Place and goes from there to Position.
   std::uint32_t Placements = 0;
   std::array<double, 3> Place{}; ///< device frame [m]
+  /// Whenever it changes the device has let go of the last force by itself, as after a reply that
+  /// was lost: the next one grows softly from zero.
+  std::uint32_t Releases = 0;
+  /// From the force asked for to the hand, as measured now [s]; counts where it is above what the
+  /// device states.
+  double Latency = 0.0;
 };
 
 /// @brief The servo thread's end of a device: plain, wait-free, no vtkObject.

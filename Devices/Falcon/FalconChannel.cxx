@@ -12,7 +12,11 @@ namespace
 {
 // The transport gives up first where the device is silent; this is for a transport that gets no
 // time.
-constexpr double LongestSilence = 0.15; // [s]
+constexpr double LongestSilence = 0.2; // [s]
+// A force for an older position is none.
+constexpr double OldestPosition = 0.02; // [s]
+// What the servo writes waits for the next exchange, at most so long or until the last is over.
+constexpr double ExchangePeriod = 0.001; // [s]
 constexpr std::uint64_t NanosecondsInSecond = 1000000000;
 
 timespec DeadlineIn(std::uint64_t timeout) noexcept
@@ -41,7 +45,7 @@ const char* FalconChannel::GetProblem() const noexcept
   switch (this->Trouble.load(std::memory_order_acquire))
   {
     case Problem::OldAnswer:
-      return "No new position of the Falcon came for 0.15 s: the machine is too busy. Relieve it, "
+      return "No new position of the Falcon came for 0.2 s: the machine is too busy. Relieve it, "
              "or let the program have real-time priority, then open the device again.";
     case Problem::ImpossiblePose:
       return "The Falcon's encoders tell a pose that its arms cannot take, so its origin is wrong. "
@@ -68,7 +72,8 @@ bool FalconChannel::ReadDevice(double time, DeviceSample& sample) noexcept
     this->Trouble.store(Problem::OldAnswer, std::memory_order_release);
     return false;
   }
-  const FalconReply& reply = this->Link->Answers.Get();
+  const FalconAnswer& answer = this->Link->Answers.Get();
+  const FalconReply& reply = answer.Reply;
   for (std::size_t leg = 0; leg < 3; ++leg)
   {
     this->Angles[leg] = FalconKinematics::AngleOfCount(reply.Encoders[leg]);
@@ -80,16 +85,21 @@ bool FalconChannel::ReadDevice(double time, DeviceSample& sample) noexcept
   }
   sample.Position = this->Position;
   sample.Buttons = reply.Buttons;
+  sample.Latency = std::max(ExchangePeriod, answer.Age) + answer.Age;
+  // In each such tick: the force grows from zero after the last of them.
+  this->HasTorques = time - this->Answered + answer.Age <= OldestPosition &&
+    FalconKinematics::Jacobian(this->Position, this->Angles, this->JacobianHere);
+  this->OwnReleases += this->HasTorques ? 0 : 1;
+  sample.Releases = static_cast<std::uint32_t>(answer.Releases) + this->OwnReleases;
   return true;
 }
 
 void FalconChannel::WriteDevice(const std::array<double, 3>& force) noexcept
 {
   std::array<double, 3> torques{};
-  FalconKinematics::Matrix jacobian{};
-  if (FalconKinematics::Jacobian(this->Position, this->Angles, jacobian))
+  if (this->HasTorques)
   {
-    torques = FalconKinematics::Torques(jacobian, force);
+    torques = FalconKinematics::Torques(this->JacobianHere, force);
   }
   const double magnitude = std::hypot(force[0], force[1], force[2]);
   const double share = magnitude > this->MaximumForce ? this->MaximumForce / magnitude : 1.0;
@@ -98,7 +108,8 @@ void FalconChannel::WriteDevice(const std::array<double, 3>& force) noexcept
     torque *= share * this->TorqueScale;
   }
   // What is not finite becomes zero where it is sent.
-  this->Link->Demands.Publish({ torques, this->Link->Halts.load(std::memory_order_acquire) });
+  this->Link->Demands.Publish({ torques, this->Link->Halts.load(std::memory_order_acquire),
+    this->Link->Answers.Get().Releases });
 }
 
 void FalconChannel::HaltDevice() noexcept

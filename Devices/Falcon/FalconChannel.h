@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 
 namespace haptics
@@ -54,6 +55,9 @@ private:
   double Answered = 0.0;   // when the last new answer was read [s]
   FalconKinematics::Vector Angles{};
   FalconKinematics::Vector Position{};
+  FalconKinematics::Matrix JacobianHere{};
+  bool HasTorques = false; // the position is new enough, and no singular one
+  std::uint32_t OwnReleases = 0;
 };
 }
 

@@ -11,11 +11,15 @@ namespace
 using Clock = std::chrono::steady_clock;
 using std::chrono::nanoseconds;
 
-constexpr std::int64_t Period = 1000000;     // [ns]
-constexpr int ReplyTimeout = 20;             // [ms]
-constexpr int ProbeTries = 5;                // of ReplyTimeout each
-constexpr int FailuresInARow = 5;            // 0.1 s without a reply
-constexpr unsigned int FarewellTimeout = 50; // [ms]
+const char* const Doing = "exchanging packets with it";
+constexpr std::int64_t Millisecond = 1000000;             // [ns]
+constexpr std::int64_t Period = Millisecond;              // [ns]
+constexpr std::int64_t ReplyTimeout = 20 * Millisecond;   // [ns]; no older position counts
+constexpr std::int64_t QuietTime = 30 * Millisecond;      // [ns]; longer than packets are apart
+constexpr std::int64_t LongestHiccup = 140 * Millisecond; // [ns]; FalconChannel waits a bit longer
+constexpr int ProbeTries = 5;                             // of ReplyTimeout each
+constexpr int FailuresInARow = 5;                         // 0.1 s without a reply
+constexpr unsigned int FarewellTimeout = 50;              // [ms]
 
 std::int64_t Now()
 {
@@ -32,50 +36,89 @@ FalconExchange::FalconExchange(FalconUsb& usb, FalconLink& link)
 {
 }
 
-// The write and the first read are under way together; a read that brings nothing but the modem
-// status, or a part of a packet, is followed by another.
-bool FalconExchange::TryOnce(const FalconCommand& command, FalconReply& reply, int timeout)
+// A read that brings nothing but the modem status, or a part of a packet, is followed by another.
+bool FalconExchange::ReadOnce(FalconReply& reply, std::int64_t rest)
 {
-  const char* const doing = "exchanging packets with it";
+  const auto timeout = static_cast<unsigned int>((rest + Millisecond - 1) / Millisecond);
+  this->In.Submit(nullptr, 0, timeout, Doing);
+  const int status = this->In.Wait();
+  if (status != LIBUSB_TRANSFER_TIMED_OUT)
+  {
+    FalconUsb::Check(status, Doing);
+  }
+  bool heard = false;
+  FtdiPayload payload{};
+  if (ReadFtdi(this->In.GetBytes(), this->In.GetSize(), payload))
+  {
+    for (std::size_t i = 0; i < payload.Size; ++i)
+    {
+      if (this->Reader.Push(payload.Bytes[i], reply))
+      {
+        this->Unanswered = std::max(0, this->Unanswered - 1);
+        heard = true;
+      }
+    }
+  }
+  return heard;
+}
+
+// The write and the first read are under way together.
+FalconExchange::Outcome FalconExchange::TryOnce(const FalconCommand& command, FalconReply& reply)
+{
   const FalconPacket packet = Encode(command);
   const std::int64_t start = Now();
   const std::uint64_t malformed = this->Reader.GetNumberOfMalformed();
-  bool answered = false;
-  this->Out.Submit(packet.data(), packet.size(), static_cast<unsigned int>(timeout), doing);
-  while (!answered && this->Reader.GetNumberOfMalformed() == malformed)
+  bool heard = false;
+  this->Out.Submit(packet.data(), packet.size(), ReplyTimeout / Millisecond, Doing);
+  ++this->Unanswered;
+  while (!heard && this->Reader.GetNumberOfMalformed() == malformed)
   {
-    const std::int64_t rest = timeout - (Now() - start) / 1000000;
+    const std::int64_t rest = ReplyTimeout - (Now() - start);
     if (rest <= 0)
     {
       break;
     }
-    this->In.Submit(nullptr, 0, static_cast<unsigned int>(rest), doing);
-    const int status = this->In.Wait();
-    if (status != LIBUSB_TRANSFER_TIMED_OUT)
-    {
-      FalconUsb::Check(status, doing);
-    }
-    FtdiPayload payload{};
-    if (ReadFtdi(this->In.GetBytes(), this->In.GetSize(), payload))
-    {
-      for (std::size_t i = 0; i < payload.Size; ++i)
-      {
-        // An answer to an earlier question may come first: the last one counts.
-        answered = this->Reader.Push(payload.Bytes[i], reply) || answered;
-      }
-    }
+    heard = this->ReadOnce(reply, rest);
   }
+  this->Age = Now() - start;
   const int written = this->Out.Wait();
   if (written != LIBUSB_TRANSFER_TIMED_OUT)
   {
-    FalconUsb::Check(written, doing);
+    FalconUsb::Check(written, Doing);
   }
   this->Link.MalformedPackets.store(this->Reader.GetNumberOfMalformed(), std::memory_order_relaxed);
-  if (answered)
+  if (!heard)
   {
-    this->Link.Exchanges.fetch_add(1, std::memory_order_acq_rel); // see FalconChannel::Settle()
+    return Outcome::Silent;
   }
-  return answered;
+  if (this->Unanswered > 0 || this->Age > ReplyTimeout)
+  {
+    return Outcome::Unsure;
+  }
+  this->Link.Exchanges.fetch_add(1, std::memory_order_acq_rel); // see FalconChannel::Settle()
+  return Outcome::Answered;
+}
+
+// Replies have no number, but come in the order of their packets: which is whose is known again
+// once all have come, or none has come for longer than packets were apart.
+void FalconExchange::WaitForLateReplies(std::int64_t deadline)
+{
+  FalconReply late;
+  std::int64_t last = Now();
+  while (this->Unanswered > 0)
+  {
+    const std::int64_t rest = std::min(last + QuietTime, deadline) - Now();
+    if (rest <= 0)
+    {
+      break;
+    }
+    if (this->ReadOnce(late, rest))
+    {
+      last = Now();
+    }
+  }
+  this->Unanswered = 0;
+  this->Reader.Clear();
 }
 
 bool FalconExchange::IsAnswered()
@@ -83,30 +126,52 @@ bool FalconExchange::IsAnswered()
   FalconReply reply;
   for (int i = 0; i < ProbeTries; ++i)
   {
-    if (this->TryOnce(FalconCommand(), reply, ReplyTimeout))
+    const Outcome outcome = this->TryOnce(FalconCommand(), reply);
+    if (outcome != Outcome::Silent)
     {
+      this->WaitForLateReplies(Now() + LongestHiccup);
       return true;
     }
     this->Reader.Clear();
   }
+  this->Unanswered = 0;
   return false;
 }
 
 FalconReply FalconExchange::Exchange(FalconCommand command)
 {
+  const std::int64_t deadline = Now() + LongestHiccup;
   FalconReply reply;
-  for (int failures = 0; failures < FailuresInARow; ++failures)
+  Outcome outcome = this->TryOnce(command, reply);
+  if (outcome == Outcome::Answered)
   {
-    if (this->TryOnce(command, reply, ReplyTimeout))
-    {
-      return reply;
-    }
-    // The position is old now, and so is any torque that was made for it.
-    command.Torques = {};
-    this->Link.MissedReplies.fetch_add(1, std::memory_order_relaxed);
+    return reply;
   }
-  throw FalconFault("The Falcon did not answer " + std::to_string(FailuresInARow) +
-    " packets in a row. Check its power supply and its cable, then open it again.");
+  // The position is old now, and so is any torque that was made for it.
+  command.Torques = {};
+  ++this->Releases;
+  int silent = 0;
+  for (; outcome != Outcome::Answered; outcome = this->TryOnce(command, reply))
+  {
+    this->Link.MissedReplies.fetch_add(1, std::memory_order_relaxed);
+    silent = outcome == Outcome::Silent ? silent + 1 : 0;
+    if (silent == FailuresInARow)
+    {
+      throw FalconFault("The Falcon did not answer " + std::to_string(FailuresInARow) +
+        " packets in a row. Check its power supply and its cable, then open it again.");
+    }
+    if (outcome == Outcome::Unsure)
+    {
+      this->WaitForLateReplies(deadline);
+    }
+    if (Now() >= deadline)
+    {
+      throw FalconFault("The Falcon's replies come more than " +
+        std::to_string(ReplyTimeout / Millisecond) +
+        " ms late. Leave out hubs, relieve the machine, then open it again.");
+    }
+  }
+  return reply;
 }
 
 void FalconExchange::WaitForNextTick()
@@ -158,9 +223,11 @@ void FalconExchange::Serve(double commandTimeout, const std::function<void()>& r
     {
       command.Torques = {};
       withdrawn = true;
+      ++this->Releases;
       this->Link.LateCommands.fetch_add(1, std::memory_order_relaxed);
     }
-    if (this->Link.Demands.Get().Halts != halts)
+    const FalconDemand& demand = this->Link.Demands.Get();
+    if (demand.Halts != halts || demand.Releases != this->Releases)
     {
       command.Torques = {};
     }
@@ -173,7 +240,7 @@ void FalconExchange::Serve(double commandTimeout, const std::function<void()>& r
                         "Check its power supply, then open and home it again.");
     }
     this->Link.Times.Add(static_cast<double>(Now() - start) * 1e-9);
-    this->Link.Answers.Publish(reply);
+    this->Link.Answers.Publish({ reply, this->Releases, static_cast<double>(this->Age) * 1e-9 });
     this->Link.Bell.Ring();
     if (!this->Link.Up.exchange(true, std::memory_order_acq_rel))
     {

@@ -28,7 +28,16 @@ public:
   void SayFarewell();
 
 private:
-  bool TryOnce(const FalconCommand& command, FalconReply& reply, int timeout);
+  enum class Outcome
+  {
+    Silent,   ///< no reply
+    Unsure,   ///< a reply, which may be one to an earlier packet
+    Answered, ///< the reply to this packet
+  };
+
+  Outcome TryOnce(const FalconCommand& command, FalconReply& reply);
+  bool ReadOnce(FalconReply& reply, std::int64_t rest);
+  void WaitForLateReplies(std::int64_t deadline);
   FalconReply Exchange(FalconCommand command);
   void WaitForNextTick();
 
@@ -37,7 +46,10 @@ private:
   FalconPacketReader Reader;
   FalconUsb::Transfer Out;
   FalconUsb::Transfer In;
-  std::int64_t NextTick = 0; // [ns] on the steady clock
+  int Unanswered = 0;         // packets sent whose reply may still come
+  std::int64_t Age = 0;       // of the last reply [ns]: since its packet was sent
+  std::uint64_t Releases = 0; // times that torques became zero here, not in the servo
+  std::int64_t NextTick = 0;  // [ns] on the steady clock
 };
 }
 

@@ -78,18 +78,30 @@ private:
   std::array<std::atomic<std::uint32_t>, 1000> Bins{};
 };
 
+/// What the device told, and what the servo is to know of how it came.
+struct FalconAnswer
+{
+  FalconReply Reply;
+  std::uint64_t Releases = 0; ///< how often the transport had let go of all force by itself
+  double Age = 0.0;           ///< of the encoders' counts when they came, at most [s]
+};
+
 /// What the servo asks for.
 struct FalconDemand
 {
   std::array<double, 3> Torques{}; ///< motor units of any size; what is sent is clamped
-  std::uint64_t Halts = 0;         ///< those that the servo knew of
+  ///@{
+  /// Those that the servo knew of. A force that was asked for before the last one is not sent.
+  std::uint64_t Halts = 0;
+  std::uint64_t Releases = 0;
+  ///@}
 };
 
 /// @brief What goes wait-free between the servo thread and the thread that talks to one Falcon.
 struct FalconLink
 {
   /// To the servo: one at a time, newest wins.
-  LatestValue<FalconReply> Answers;
+  LatestValue<FalconAnswer> Answers;
   /// From the servo.
   LatestValue<FalconDemand> Demands;
   /// How often a watchdog let go of all force: what was asked for before does not count any more.

@@ -44,6 +44,9 @@ vtkFalconHapticDevice::vtkFalconHapticDevice()
 {
   this->MaximumForce = 8.0;
   this->MaximumStiffness = 800.0; // up to 3000 was seen in the best case
+  // Nobody has published it. With this one 800 N/m, which the field knows as safe, are just passive
+  // at 1 kHz and this latency: K (T / 2 + latency). More would allow what was not tried.
+  this->Damping = 2.0;
   this->Latency = 0.002; // up to a millisecond until the next exchange, and as much on the bus
   this->NumberOfButtons = 4;
   const double bounds[6] = { -0.03, 0.03, -0.03, 0.03, 0.095, 0.155 };

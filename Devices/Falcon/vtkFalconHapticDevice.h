@@ -18,7 +18,7 @@
  *
  * Torques are in units that nobody has documented: calibrate TorqueScale before trusting a force,
  * see Devices/README.md, which also lists every fault, what the device gets and what the user
- * reads.
+ * reads. Damping, 2 N s/m, is an assumption: it is what the stiffness limit goes by.
  *
  * The last that the device gets is zero force: on Close(), destruction and every fault that leaves
  * it able to listen, and where the process ends while a servo runs (see haptics::EmergencyStop).

@@ -103,6 +103,13 @@ bool ServoCycle::Tick(double time) noexcept
     }
     this->Guard.NoticeJump();
   }
+  // The first tick starts softly anyway.
+  if (!this->IsFirst && this->Releases != sample.Releases)
+  {
+    this->Guard.Release();
+    this->Guard.StartSoftly(settings.Safety);
+  }
+  this->Releases = sample.Releases;
   this->Placements = settings.Placements;
   this->DevicePlacements = settings.IsClutched ? this->DevicePlacements : sample.Placements;
   this->WasClutched = settings.IsClutched;
@@ -117,7 +124,9 @@ bool ServoCycle::Tick(double time) noexcept
     this->End(ServoState::InvalidForce);
     return false;
   }
-  const Vec3 force = this->Guard.Force(contact, period, settings.Force, settings.Safety);
+  SafetySettings safety = settings.Safety;
+  safety.DeviceLatency = std::max(safety.DeviceLatency, sample.Latency);
+  const Vec3 force = this->Guard.Force(contact, period, settings.Force, safety);
   this->Channel->Write(force);
 
   this->Now.Time = time;

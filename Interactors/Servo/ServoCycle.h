@@ -119,6 +119,7 @@ private:
   WorkspaceTransform DeviceToWorld; // of the last tick
   std::uint64_t Placements = 0;
   std::uint32_t DevicePlacements = 0;
+  std::uint32_t Releases = 0; // of the device
 };
 }
 

@@ -11,7 +11,6 @@ constexpr int BaudToGreet = 0x4138;
 constexpr int BaudToUpload = 0x0015;
 constexpr int BaudToRun = 0x0002;
 constexpr std::size_t ReadSize = 62;
-constexpr std::chrono::milliseconds Delay{ 2 };
 }
 
 const Act* FalconModel::Find(At where, int nth) const
@@ -141,7 +140,7 @@ void FalconModel::Say(const std::vector<std::uint8_t>& bytes, const Act* act)
   {
     said.insert(said.begin(), { 'x', '<', '\0', '>' });
   }
-  const auto ready = Clock::now() + (what == Do::Late ? Delay : Clock::duration::zero());
+  const auto ready = Clock::now() + (what == Do::Late ? this->LateBy : Clock::duration::zero());
   const std::size_t size = what == Do::Split ? 7 : ReadSize;
   for (std::size_t i = 0; i < said.size(); i += size)
   {
@@ -236,6 +235,10 @@ int FalconModel::TakePacket(const haptics::FalconPacket& packet)
   const Act* act =
     homed ? this->Find(At::Serve, this->Served++) : this->Find(At::Probe, this->Probes++);
   const int status = this->Perform(act);
+  if (this->CountsPackets)
+  {
+    this->Encoders[0] = static_cast<std::int16_t>(FirstCount + this->Served % CountTo);
+  }
   const haptics::FalconPacket reply =
     haptics::Encode(haptics::FalconReply{ this->Encoders, this->Buttons, this->Homed });
   this->Say({ reply.begin(), reply.end() }, act);

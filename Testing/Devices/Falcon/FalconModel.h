@@ -29,7 +29,7 @@ enum class Do
   Overflow,   ///< sends more than was asked for
   Silence,    ///< takes the bytes and says nothing
   Split,      ///< answers in two reads
-  Late,       ///< answers 2 ms later
+  Late,       ///< answers later, by LateBy
   CutStatus,  ///< sends a read of one byte, shorter than the modem status
   Garble,     ///< damages a byte of the answer
   Chatter,    ///< puts rubbish before the answer
@@ -65,6 +65,11 @@ struct FalconModel
   int HomesAfter = 5;              ///< packets a leg; negative: nobody homes it
   std::array<std::int16_t, 3> Encoders{ { 300, 310, 320 } };
   std::uint8_t Buttons = 0;
+  std::chrono::milliseconds LateBy{ 2 };
+  bool CountsPackets =
+    false; ///< at leg 0: FirstCount, and one more with every packet, up to CountTo
+  static constexpr std::int16_t FirstCount = 300;
+  static constexpr int CountTo = 256;
   std::function<void(const haptics::FalconCommand&)> OnCommand; ///< called with every packet
   ///@}
 

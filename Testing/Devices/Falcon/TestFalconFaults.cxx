@@ -385,7 +385,7 @@ TEST_F(FalconFaults, TellsThatTheMachineIsTooBusyWhereNoNewPositionComes)
   while (channel->Read(time, sample) && ++reads < 1000)
   {
     channel->Write(Push);
-    time += 0.16;
+    time += 0.21;
   }
   this->Device->Update();
   EXPECT_EQ(this->Device->GetState(), vtkHapticDevice::Faulted);
