@@ -29,6 +29,7 @@ public:
     vtkWeakPointer<vtkObject> Representation;
     vtkSmartPointer<vtkActor> Actor; // null while it cannot be touched
     int Id = -1;                     // in the scene
+    std::string Name;
   };
 
   vtkNew<vtkHapticScene> Scene;

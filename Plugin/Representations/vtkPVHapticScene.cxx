@@ -155,6 +155,18 @@ void vtkPVHapticScene::AddSurface(vtkObject* representation)
   this->Modified();
 }
 
+void vtkPVHapticScene::SetSurfaceName(vtkObject* representation, const std::string& name)
+{
+  for (Internals::Surface& surface : this->Internal->Surfaces)
+  {
+    if (surface.Representation == representation)
+    {
+      surface.Name = name;
+      this->Internal->Scene->SetSurfaceName(surface.Id, name.c_str());
+    }
+  }
+}
+
 void vtkPVHapticScene::RemoveAllSurfaces()
 {
   this->Internal->Surfaces.clear();
@@ -177,6 +189,7 @@ void vtkPVHapticScene::SyncSurfaces()
     {
       wanted.insert(surface.Actor);
       surface.Id = self.Scene->AddSurface(surface.Actor);
+      self.Scene->SetSurfaceName(surface.Id, surface.Name.c_str());
       vtkGodObjectFilter* filter = self.Scene->GetSurfaceFilter(surface.Id);
       filter->SetSide(self.Side);
       representation->Configure(filter);

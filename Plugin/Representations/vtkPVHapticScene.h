@@ -65,6 +65,8 @@ public:
   void AddSurface(vtkObject* representation);
   void RemoveAllSurfaces();
   ///@}
+  /** What messages and the read-out call a representation's surface; no name by default. */
+  void SetSurfaceName(vtkObject* representation, const std::string& name);
   /**
    * Whether the surfaces come from several processes, which may place the same point some units of
    * the last place apart: such points are merged, so that no seam is felt. Default off.

@@ -43,6 +43,8 @@ void vtkSMHapticSceneProxy::CreateVTKObjects()
     // VTK drops these observers when this object goes.
     this->GetSessionProxyManager()->AddObserver(
       vtkCommand::UnRegisterEvent, this, &vtkSMHapticSceneProxy::OnUnregistered);
+    this->GetSessionProxyManager()->AddObserver(
+      vtkCommand::RegisterEvent, this, &vtkSMHapticSceneProxy::OnRegistered);
     this->GetSession()->AddObserver(
       vtkPVSessionBase::ConnectionLost, this, &vtkSMHapticSceneProxy::OnConnectionLost);
   }
@@ -94,6 +96,11 @@ void vtkSMHapticSceneProxy::UpdateVTKObjects()
   if (!this->Untraced.empty())
   {
     this->Trace();
+  }
+  if (this->GetScene())
+  {
+    this->UpdateProperty("Surfaces"); // named before anything engages
+    this->NameSurfaces(nullptr, nullptr);
   }
   this->Superclass::UpdateVTKObjects();
   this->SyncWorkspace(); // else setting again what another device or view has undone does nothing
@@ -157,6 +164,36 @@ void vtkSMHapticSceneProxy::Trace()
     item = values;
   }
   this->Untraced.clear();
+}
+
+/// As the pipeline browser names their sources. `source`: one that just gets another `name`.
+void vtkSMHapticSceneProxy::NameSurfaces(vtkSMProxy* source, const char* name)
+{
+  vtkPVHapticScene* const scene = this->GetScene();
+  vtkSMPropertyHelper surfaces(this, "Surfaces");
+  for (unsigned int i = 0; scene && i < surfaces.GetNumberOfElements(); ++i)
+  {
+    vtkSMProxy* const representation = surfaces.GetAsProxy(i);
+    vtkSMProxy* const shown = representation && representation->GetProperty("Input")
+      ? vtkSMPropertyHelper(representation, "Input").GetAsProxy()
+      : nullptr;
+    const char* const its = !shown ? nullptr
+      : shown == source            ? name
+                                   : this->GetSessionProxyManager()->GetProxyName("sources", shown);
+    if (its)
+    {
+      scene->SetSurfaceName(vtkObject::SafeDownCast(representation->GetClientSideObject()), its);
+    }
+  }
+}
+
+void vtkSMHapticSceneProxy::OnRegistered(vtkObject*, unsigned long, void* information)
+{
+  const auto* given = static_cast<vtkSMProxyManager::RegisteredProxyInformation*>(information);
+  if (given->Proxy && given->GroupName && std::string(given->GroupName) == "sources")
+  {
+    this->NameSurfaces(given->Proxy, given->ProxyName);
+  }
 }
 
 void vtkSMHapticSceneProxy::UpdatePropertyInformation()

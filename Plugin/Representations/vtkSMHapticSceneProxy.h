@@ -3,8 +3,9 @@
  * @brief   The proxy of a vtkPVHapticScene: keeps up with what is deleted, saved and traced
  *
  * A view or representation that is unregistered leaves the scene at once, as does everything when
- * the server is lost; state files get the workspace transform that is in force; and while ParaView
- * traces, each change of a property becomes a line of Python.
+ * the server is lost; state files get the workspace transform that is in force; surfaces are named
+ * as the pipeline browser names their sources; and while ParaView traces, each change of a property
+ * becomes a line of Python.
  *
  * GUI thread.
  *
@@ -49,10 +50,12 @@ private:
   vtkSMHapticSceneProxy(const vtkSMHapticSceneProxy&) = delete;
   void operator=(const vtkSMHapticSceneProxy&) = delete;
 
+  void OnRegistered(vtkObject* caller, unsigned long event, void* information);
   void OnUnregistered(vtkObject* caller, unsigned long event, void* information);
   void OnConnectionLost();
   void OnPropertyModified(vtkObject* caller, unsigned long event, void* name);
   void SyncWorkspace();
+  void NameSurfaces(vtkSMProxy* source, const char* name);
   void Trace();
 
   std::set<std::string> Untraced;      // properties that have changed since the last update

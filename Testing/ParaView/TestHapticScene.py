@@ -21,6 +21,22 @@ class TestHapticScene(SceneTest):
         self.assertIn("Normals", list(self.hand.ProbedValues))
         self.assertGreaterEqual(self.hand.TouchedCell, 0)
 
+    def test_surfaces_are_named_as_the_pipeline_browser_does(self):
+        display = self.touch(self.make("Sphere", registrationName="Femur"))
+        self.hand.step(1500)
+        scene = self.hand.vtk
+        surface = scene.GetSurfaceId(0)
+        self.assertEqual(scene.GetSurfaceName(surface), "Femur")
+        probe = scene.GetProbe()
+        self.assertEqual(probe.GetSurfaceName(), "Femur")
+        display.Scale = [1.0, 0.0, 1.0]
+        simple.Render(self.view)
+        with self.assertRaisesRegex(haptics.HapticsError, r"^Surface \d+ \(Femur\): .*flattens"):
+            self.hand.step(1)
+        display.Scale = [1.0, 1.0, 1.0]
+        simple.RenameSource("Tibia", self.made[0])
+        self.assertEqual(scene.GetSurfaceName(surface), "Tibia")
+
     def test_what_is_hidden_or_shown_otherwise_is_not_touched(self):
         display = self.touch(self.make("Sphere"))
         self.hand.step(1500)
