@@ -270,7 +270,7 @@ def test_bad_input(folder):
         assert "Traceback" not in failed.stderr, failed.stderr
 
 
-def test_stl_files_hold_as_many_triangles_as_they_say(folder):
+def test_stl_files_hold_at_least_as_many_triangles_as_they_say(folder):
     path = os.path.join(folder, "ball.stl")
     writer = vtkSTLWriter()
     writer.SetInputData(read(ball(0.0, folder)))
@@ -285,7 +285,8 @@ def test_stl_files_hold_as_many_triangles_as_they_say(folder):
             (bytes(4), triangles, False),  # not known when the header was written
             (count, triangles + b"end", False),
             (b"\xff\xff\xff\x7f", triangles, True),  # VTK would end the process
-            (b"\x05\x00\x00\x00", triangles, True),
+            (b"\x05\x00\x00\x00", triangles, False),  # fewer told than there are
+            (count, triangles + bytes(60), False),
             (count, triangles[:-60], True),
         ):
             with open(path, "wb") as file:
@@ -304,6 +305,38 @@ def test_stl_files_hold_as_many_triangles_as_they_say(folder):
         file.truncate(len(whole) // 20)
     failed = viewer(path + ".gz", "--offscreen")
     assert failed.returncode == 2 and "could not be unpacked" in failed.stderr, failed.stderr
+
+
+def write_stl_text(path, name, folder):
+    writer = vtkSTLWriter()
+    writer.SetInputData(read(ball(0.0, folder)))
+    writer.SetFileName(path)
+    writer.SetFileTypeToASCII()
+    assert writer.Write() == 1
+    with open(path, "rb") as file:
+        rest = file.read().split(b"\n", 1)[1]
+    with open(path, "wb") as file:
+        file.write(f"solid {name}\n".encode() + rest)
+
+
+def test_an_stl_text_may_have_a_name_in_any_letters(folder):
+    path = os.path.join(folder, "named.stl")
+    for name in ("ball", "\u51cf\u901f\u5668\u5916\u58f3\u96f6\u4ef6\u56fe", "Kugelst\u00fcck"):
+        write_stl_text(path, name, folder)
+        assert surfaces.read_surface(path).GetNumberOfPolys() == 3040, name
+
+
+def test_a_text_takes_no_more_memory_than_its_triangles(folder):
+    path = os.path.join(folder, "text.stl")
+    write_stl_text(path, "ball", folder)
+    sysconf = os.sysconf
+    pages = int(0.3 * os.path.getsize(path) * surfaces.MEMORY_FACTOR / surfaces.LARGEST_SHARE)
+    pages //= sysconf("SC_PAGE_SIZE")
+    os.sysconf = lambda name: pages if name == "SC_PHYS_PAGES" else sysconf(name)
+    try:
+        assert surfaces.read_surface(path).GetNumberOfPolys() == 3040
+    finally:
+        os.sysconf = sysconf
 
 
 def test_vectors_that_are_not_finite_do_not_hide_a_surface(folder):
@@ -409,7 +442,9 @@ with tempfile.TemporaryDirectory() as scratch:
         test_simulated,
         test_what_is_gripped_is_carried_in_the_picture,
         test_bad_input,
-        test_stl_files_hold_as_many_triangles_as_they_say,
+        test_stl_files_hold_at_least_as_many_triangles_as_they_say,
+        test_an_stl_text_may_have_a_name_in_any_letters,
+        test_a_text_takes_no_more_memory_than_its_triangles,
         test_vectors_that_are_not_finite_do_not_hide_a_surface,
         test_the_view_passes_over_points_that_are_not_finite,
         test_enormous_files_are_refused,

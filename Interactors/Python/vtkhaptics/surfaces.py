@@ -50,6 +50,7 @@ class SurfaceError(Exception):
 
 LARGEST_SHARE = 0.5  # of the memory: what triangles and engine of a file may take
 MEMORY_FACTOR = 12.0  # what they take at most, in lengths of a binary file
+STL_TEXT_SHARE = 0.25  # of a text's length, at most: a triangle has 50 bytes, or 200 and more of text
 
 
 # VTK keeps the range of lengths that a writer has found in an array of vectors; where it is infinite
@@ -106,7 +107,9 @@ def _refuse_enormous(path):
     except (AttributeError, ValueError):
         return  # a system that does not tell
     size = os.path.getsize(path)
-    if size * MEMORY_FACTOR > memory * LARGEST_SHARE:
+    with open(path, "rb") as file:
+        share = STL_TEXT_SHARE if _is_stl_text(file.read(1024)) else 1.0
+    if size * share * MEMORY_FACTOR > memory * LARGEST_SHARE:
         raise SurfaceError(
             f"{path}: {size / 2**30:.1f} GB would take more than half of the memory "
             f"({memory / 2**30:.1f} GB) once triangulated. Decimate it first, for example with "
@@ -114,38 +117,49 @@ def _refuse_enormous(path):
         )
 
 
-def _check_stl_count(path):
-    """The number of bytes after the last triangle of a binary file; 0 for a text.
-
-    vtkSTLReader takes memory for as many triangles as a binary file says, and ends the process
-    where there is not so much. Zero is what programs write that do not know it yet: read to the end.
-    """
-    size = os.path.getsize(path)
-    with open(path, "rb") as file:
-        start = file.read(256)
-    # As VTK tells them apart. Not by 'solid': headers of binary files begin with it too.
-    text = bytes([*range(0x20, 0x80), *b"\t\n\r"])
-    if len(start) < 84 or len(start.translate(None, delete=text)) < 0.05 * len(start):
-        return 0
-    told, held = int.from_bytes(start[80:84], "little"), (size - 84) // 50
-    if told not in (0, held):
-        raise SurfaceError(
-            f"{path}: says that it holds {told:,} triangles, but its {size:,} bytes are those of "
-            f"{held:,}. It was cut short, or is no binary STL: get or save it again."
-        )
-    return (size - 84) % 50
+def _is_stl_text(start):
+    """Whether a file that begins so is STL as text. Headers of binary files begin with 'solid' too."""
+    return start.lstrip().lower().startswith(b"solid") and b"facet" in start.lower()
 
 
 @contextlib.contextmanager
-def _without_end(path, size):
-    """A path to the same file without its last `size` bytes."""
-    if size == 0:
+def _stl_as_read(path):
+    """A path to the same triangles as vtkSTLReader takes them in.
+
+    It takes memory for as many triangles as a binary file says, and ends the process where there is
+    not so much; it takes bytes after the last triangle for one more, or refuses them (VTK 9.6); and a
+    name in letters beyond ASCII makes it take a text for binary.
+    """
+    size = os.path.getsize(path)
+    with open(path, "rb") as file:
+        start = file.read(1024)
+    text = bytes([*range(0x20, 0x80), *b"\t\n\r"])  # as VTK tells them apart, in the first 256 bytes
+    others = len(start[:256].translate(None, delete=text))
+    if len(start) < 84 or others < 0.05 * len(start[:256]):
         yield path
         return
+    if _is_stl_text(start):
+        head, skipped, end = b"solid\n", start.index(b"\n") + 1, size
+    else:
+        told, held = int.from_bytes(start[80:84], "little"), (size - 84) // 50
+        if told > held:
+            raise SurfaceError(
+                f"{path}: says that it holds {told:,} triangles, but its {size:,} bytes are those "
+                f"of {held:,}. It was cut short, or is no STL: get or save it again."
+            )
+        # Some programs write 0, or too few, and then more triangles; others write something after
+        # the triangles, which is seldom as long as some of them.
+        count = held if told == 0 or (size - 84) % 50 == 0 else told
+        head, skipped, end = start[:80] + count.to_bytes(4, "little"), 84, 84 + 50 * count
+        if count == told and end == size:
+            yield path
+            return
     with tempfile.NamedTemporaryFile(suffix=os.path.splitext(path)[1]) as copy:
+        copy.write(head)
         with open(path, "rb") as file:
+            file.seek(skipped)
             shutil.copyfileobj(file, copy)
-        copy.truncate(os.path.getsize(path) - size)
+        copy.truncate(len(head) + end - skipped)
         copy.flush()
         yield copy.name
 
@@ -333,8 +347,8 @@ def _read_unpacked(path, unpacked, progress, contour):
     if not os.path.isdir(path):
         _refuse_enormous(unpacked)
     # VTK 9.6 refuses a binary STL with bytes after its last triangle; some programs write them.
-    surplus = _check_stl_count(unpacked) if extension == ".stl" else 0
-    with _without_end(unpacked, surplus) as whole:
+    as_read = _stl_as_read if extension == ".stl" else contextlib.nullcontext
+    with as_read(unpacked) as whole:
 
         def read():
             if extension == ".off":
