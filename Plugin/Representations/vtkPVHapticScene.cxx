@@ -63,6 +63,18 @@ void vtkPVHapticScene::Fail(const std::string& message)
   vtkErrorMacro(<< message);
 }
 
+/// Where no surface can be touched and the scene has reported why, that is the cause.
+void vtkPVHapticScene::FailWithoutSurface(const std::string& message)
+{
+  const std::string cause = this->Internal->Scene->GetErrorMessage();
+  if (cause.empty() || this->GetNumberOfTouchableSurfaces() > 0)
+  {
+    this->Fail(message);
+    return;
+  }
+  this->Internal->Message = cause;
+}
+
 vtkHapticScene* vtkPVHapticScene::GetScene()
 {
   return this->Internal->Scene;
@@ -307,8 +319,8 @@ bool vtkPVHapticScene::ChoosePath()
   }
   if (!self.Choice.MakeStroke(self.Scene))
   {
-    this->Fail("The simulated hand finds no surface to stroke in the middle of the view. Turn the "
-               "camera to one.");
+    this->FailWithoutSurface("The simulated hand finds no surface to stroke in the middle of the "
+                             "view. Turn the camera to one.");
     return false;
   }
   self.Scene->GetServo()->Stop(); // in virtual time too: the device is opened anew

@@ -211,6 +211,7 @@ private:
   void operator=(const vtkPVHapticScene&) = delete;
 
   void Fail(const std::string& message);
+  void FailWithoutSurface(const std::string& message);
   bool Prepare();
   bool ChooseDevice();
   bool ChoosePath();

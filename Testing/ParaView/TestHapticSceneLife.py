@@ -135,6 +135,30 @@ class TestHapticSceneLife(SceneTest):
         self.assertFalse(self.hand.Touching)
         self.assertEqual(self.hand.ForceMagnitude, 0.0)
 
+    def test_the_cause_is_raised_where_no_surface_can_be_touched(self):
+        not_finite = self.make("ProgrammableSource", Script="""
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray
+points, polygons, output = vtkPoints(), vtkCellArray(), self.GetOutput()
+for point in ((0, 0, 0), (1, 0, 0), (0, 1, 0), (float("nan"), 0, 0)):
+    points.InsertNextPoint(*point)
+for corners in ((0, 1, 2), (0, 1, 3)):
+    polygons.InsertNextCell(3)
+    for corner in corners:
+        polygons.InsertCellPoint(corner)
+output.SetPoints(points)
+output.SetPolys(polygons)
+""")
+        self.touch(not_finite)
+        with self.assertRaisesRegex(haptics.HapticsError, "not finite"):
+            self.hand.step(10)
+        self.hand.Surfaces = []
+        display = self.touch(self.make("Sphere"))
+        display.Scale = [1.0, 1.0, 0.0]
+        simple.Render(self.view)
+        with self.assertRaisesRegex(haptics.HapticsError, "flattens"):
+            self.hand.step(10)
+
     def test_a_chart_is_no_view_to_touch_in(self):
         chart = simple.CreateView("XYChartView")
         self.hand.View = chart
