@@ -2,6 +2,7 @@
 
 import vtkmodules.vtkInteractionStyle  # noqa: F401  (registers the interactors)
 import vtkhaptics
+from vtkmodules.vtkCommonDataModel import vtkPlane
 from vtkmodules.vtkFiltersCore import vtkAppendFilter
 from vtkmodules.vtkFiltersSources import vtkLineSource, vtkSphereSource
 from vtkmodules.vtkRenderingCore import (
@@ -105,6 +106,35 @@ def test_follows_what_is_shown():
     vtkhaptics.enable(interactor).disable()
 
 
+def test_clipping_planes_of_meshes_are_followed():
+    sphere, mesh, mapper, actor = vtkSphereSource(), vtkAppendFilter(), vtkDataSetMapper(), vtkActor()
+    mesh.SetInputConnection(sphere.GetOutputPort())
+    mapper.SetInputConnection(mesh.GetOutputPort())
+    actor.SetMapper(mapper)
+    interactor = plot(actor)
+    touch = vtkhaptics.enable(interactor)
+    hit = [0.0, 0.0, 0.0]
+
+    def height():
+        interactor.GetRenderWindow().Render()
+        touch.scene.Update()
+        assert touch.scene.IntersectRay([0.05, 0.1, 10.0], [0.0, 0.0, -1.0], hit)
+        return hit[2]
+
+    assert height() > 0.0
+    plane = vtkPlane()
+    plane.SetNormal(0.0, 0.0, -1.0)
+    mapper.AddClippingPlane(plane)
+    assert height() < 0.0
+    plane.SetOrigin(0.0, 0.0, 1.0)
+    assert height() > 0.0
+    plane.SetOrigin(0.0, 0.0, 0.0)
+    assert height() < 0.0
+    mapper.RemoveAllClippingPlanes()
+    assert height() > 0.0
+    touch.disable()
+
+
 def test_touches_the_outside_of_meshes():
     append, lines = vtkAppendFilter(), vtkLineSource()
     sphere = vtkSphereSource()
@@ -129,3 +159,4 @@ test_takes_what_can_be_touched()
 test_refuses_what_cannot_be_touched()
 test_follows_what_is_shown()
 test_touches_the_outside_of_meshes()
+test_clipping_planes_of_meshes_are_followed()

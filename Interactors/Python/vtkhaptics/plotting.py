@@ -1,5 +1,6 @@
 """Lets people touch what a plot shows: ``enable(plotter)`` for PyVista, or for plain VTK."""
 
+from vtkmodules.vtkCommonDataModel import vtkPlaneCollection
 from vtkmodules.vtkFiltersGeometry import vtkCompositeDataGeometryFilter, vtkDataSetSurfaceFilter
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 
@@ -55,6 +56,7 @@ class Touch:
             if stand_in:
                 stand_in.SetVisibility(prop.GetVisibility())
                 stand_in.SetPickable(prop.GetPickable())
+                _clip_alike(stand_in, prop)
 
     def _take_interrupts(self, interactor):
         """Lets Ctrl-C end the event loop, whoever starts it, and after that the program."""
@@ -197,4 +199,10 @@ def _outside_actor(actor):
     stand_in = vtkActor()
     stand_in.SetMapper(touched)
     stand_in.SetUserMatrix(actor.GetMatrix())
+    _clip_alike(stand_in, actor)
     return stand_in
+
+
+def _clip_alike(stand_in, actor):
+    planes = actor.GetMapper().GetClippingPlanes()
+    stand_in.GetMapper().SetClippingPlanes(vtkPlaneCollection() if planes is None else planes)
