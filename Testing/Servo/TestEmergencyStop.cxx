@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
+#include <functional>
 #include <new>
 #include <stdexcept>
 #include <thread>
@@ -69,7 +70,8 @@ private:
 /// Runs `end` in a child that is pressing with about 1 N; gives how the child ended.
 /// `parent` has to be through first, where there is one.
 template <typename Function>
-int EndWhilePressing(SharedDevice& device, Function end, std::thread* parent = nullptr)
+int EndWhilePressing(
+  SharedDevice& device, Function end, const std::function<void(pid_t)>& parent = nullptr)
 {
   const pid_t child = fork();
   if (child == 0)
@@ -98,7 +100,11 @@ int EndWhilePressing(SharedDevice& device, Function end, std::thread* parent = n
   }
   if (parent)
   {
-    parent->join();
+    parent(child);
+    if (::testing::Test::HasFatalFailure())
+    {
+      kill(child, SIGKILL); // it may be stopped, and would be waited for without end
+    }
   }
   int status = 0;
   waitpid(child, &status, 0);
@@ -186,22 +192,21 @@ TEST_F(EmergencyStop, AStopTakesTheForceAwayUntilTheProcessGoesOn)
   for (const int signal : { SIGTSTP, SIGTTIN, SIGTTOU })
   {
     this->Device->Force = 0.0;
-    std::thread parent(
-      [&]
+    const auto parent = [&](pid_t child)
+    {
+      for (int times = 0; times < 2; ++times)
       {
-        for (int times = 0; times < 2; ++times)
-        {
-          int status = 0;
-          const pid_t child = waitpid(-1, &status, WUNTRACED);
-          ASSERT_TRUE(WIFSTOPPED(status)) << signal;
-          EXPECT_EQ(WSTOPSIG(status), signal);
-          EXPECT_EQ(this->Device->Force, 0.0) << "while it is stopped";
-          std::this_thread::sleep_for(std::chrono::milliseconds(700)); // more than a stall may last
-          EXPECT_EQ(this->Device->Force, 0.0);
-          this->Device->Growth = 0.0;
-          kill(child, SIGCONT);
-        }
-      });
+        int status = 0;
+        ASSERT_EQ(waitpid(child, &status, WUNTRACED), child);
+        ASSERT_TRUE(WIFSTOPPED(status)) << signal;
+        EXPECT_EQ(WSTOPSIG(status), signal);
+        EXPECT_EQ(this->Device->Force, 0.0) << "while it is stopped";
+        std::this_thread::sleep_for(std::chrono::milliseconds(700)); // more than a stall may last
+        EXPECT_EQ(this->Device->Force, 0.0);
+        this->Device->Growth = 0.0;
+        kill(child, SIGCONT);
+      }
+    };
     const int status = EndWhilePressing(
       *this->Device,
       [signal](SharedDevice& device)
@@ -217,7 +222,7 @@ TEST_F(EmergencyStop, AStopTakesTheForceAwayUntilTheProcessGoesOn)
         }
         std::exit(5);
       },
-      &parent);
+      parent);
     EXPECT_TRUE(WIFEXITED(status));
     EXPECT_EQ(WEXITSTATUS(status), 5);
     EXPECT_GT(this->Device->Growth, 0.0);
