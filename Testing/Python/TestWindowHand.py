@@ -128,6 +128,12 @@ def hidden(surface, eye, points, tolerance):
     return result
 
 
+def longest_run(flags):
+    """The length of the longest run of true values."""
+    ends = np.flatnonzero(np.diff(np.concatenate([[0], flags.astype(int), [0]])))
+    return int((ends[1::2] - ends[::2]).max()) if len(ends) else 0
+
+
 def measure(surface, about, events, trace):
     """The figures of one use, by name."""
     data = trace.GetPointData()
@@ -159,6 +165,7 @@ def measure(surface, about, events, trace):
         "force of the stroke": float(np.median(force[begin:end])) / asked,
         "deepest but for 1 %, of what was asked":
             float(np.quantile(depth[touching], 0.99) / about["depth"]) if touching.any() else 0.0,
+        "longest deeper by half [s]": longest_run(touching & (depth > 1.5 * about["depth"])) / 1000.0,
         "in plain view": float(seen.mean()) if len(seen) else 0.0,
         "let go after [s]": float(touching[release : press_of_the_camera].sum()) / 1000.0,
         "moved by the camera [mm]": 1000.0 / about["scale"]
@@ -184,8 +191,8 @@ def main():
                 ("force, of what was asked", abs(found["force, of what was asked"] - 1.0) < 0.1),
                 ("its spread", found["its spread"] < 0.1),
                 ("stroke in contact", found["stroke in contact"] > 0.95),
-                ("deepest but for 1 %, of what was asked",
-                 found["deepest but for 1 %, of what was asked"] < 1.5),
+                # Over a fold of the cortex the hand is deeper for a moment; on a rim it would stay.
+                ("longest deeper by half [s]", found["longest deeper by half [s]"] < 0.25),
                 ("in plain view", found["in plain view"] > 0.99),
                 # 25 ms, and what a picture takes that is being drawn: long on a busy machine.
                 ("let go after [s]", found["let go after [s]"] < 1.0),
