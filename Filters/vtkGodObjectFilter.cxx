@@ -223,6 +223,11 @@ int vtkGodObjectFilter::RequestData(
     vtkErrorMacro("There is no input to touch. Connect a vtkPolyData with polygons or strips.");
     return 1;
   }
+  if (vtkGodObjectFilter::IsEmpty(input))
+  {
+    this->PassNothing(input, output);
+    return 1;
+  }
   const haptics::PreparationOptions options = this->GetOptions(input);
   if (!this->Internals->Built ||
     !(this->Internals->Built->Key() == haptics::SurfacePreparation::MakeKey(input, options)))
@@ -250,6 +255,30 @@ int vtkGodObjectFilter::RequestData(
   this->AddReport(output);
   this->UpdateProgress(1.0);
   return 1;
+}
+
+bool vtkGodObjectFilter::IsEmpty(vtkPolyData* input)
+{
+  return input->GetNumberOfPoints() == 0 && input->GetNumberOfCells() == 0;
+}
+
+/// Keeps the arrays' names, so that what comes after this filter finds them.
+void vtkGodObjectFilter::PassNothing(vtkPolyData* input, vtkPolyData* output)
+{
+  this->Internals->Built.reset();
+  this->Internals->Made.reset();
+  output->GetPointData()->ShallowCopy(input->GetPointData());
+  output->GetCellData()->ShallowCopy(input->GetCellData());
+  const auto addIds = [](vtkDataSetAttributes* data, const char* name)
+  {
+    vtkNew<vtkIdTypeArray> ids;
+    ids->SetName(name);
+    data->AddArray(ids);
+  };
+  addIds(output->GetPointData(), "OriginalPointId");
+  addIds(output->GetCellData(), "OriginalCellId");
+  this->AddReport(output);
+  this->UpdateProgress(1.0);
 }
 
 void vtkGodObjectFilter::AddReport(vtkPolyData* output) const

@@ -31,9 +31,13 @@
  * How the surface feels, by constants and by arrays of the input, is the business of
  * GetProperties() and SetInputArrayToProcess().
  *
- * Errors: an input without polygons, a point that is not finite, a cell that names a point that
- * does not exist, and a surface without area each give an error that says where and what to do, an
- * empty output and no surface. A surface that was handed out earlier stays valid for who holds it.
+ * An input without points and cells (a contour of a value that does not occur, an empty threshold
+ * or time step) is an ordinary state of a pipeline: an empty output, no surface, no error.
+ *
+ * Errors: an input of points or lines without polygons, a point that is not finite, a cell that
+ * names a point that does not exist, and a surface without area each give an error that says where
+ * and what to do, an empty output and no surface. A surface that was handed out earlier stays valid
+ * for who holds it.
  *
  * Composite inputs are taken one block after the other: every block of the output is clean, and
  * GetSurface() is that of the last block. Not for surfaces of more than 2^31 - 1 corners, nor for
@@ -181,7 +185,8 @@ public:
     vtkPolyData* geometry, const std::shared_ptr<const haptics::TriangleSurface>& surface);
 
   /**
-   * @brief The surface as of the last Update(); null before, and after an error or an abort.
+   * @brief The surface as of the last Update(); null before, for an empty input, and after an error
+   * or an abort.
    */
   std::shared_ptr<const haptics::TriangleSurface> GetSurface() const;
 
@@ -199,6 +204,12 @@ public:
   void TellOfSides(const haptics::SurfacePreparation& prepared);
   ///@}
 #endif
+
+  /**
+   * @brief Whether an input has neither points nor cells, as a contour of a value that does not
+   * occur: an ordinary state of a pipeline. There is nothing to touch, and no error.
+   */
+  static bool IsEmpty(vtkPolyData* input);
 
   /**
    * @brief How often a surface has been built, successfully or not, since this filter was made.
@@ -250,6 +261,7 @@ private:
   class vtkInternals;
   std::unique_ptr<vtkInternals> Internals;
 
+  void PassNothing(vtkPolyData* input, vtkPolyData* output);
   void AddReport(vtkPolyData* output) const;
 
   int Side = AUTOMATIC_SIDE;

@@ -27,6 +27,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace
 {
@@ -162,6 +163,7 @@ void vtkGodObjectTrace::KeepSurfaceError(vtkObject*, unsigned long, void* text)
 vtkGodObjectFilter* vtkGodObjectTrace::PrepareSurface(vtkPolyData* surface)
 {
   vtkGodObjectFilter* upstream = FindPreparation(this, 1);
+  this->SurfaceError.clear();
   if (upstream && upstream->GetSurface() &&
     upstream->GetOutput()->GetPoints() == surface->GetPoints() &&
     upstream->GetOutput()->GetNumberOfPolys() == surface->GetNumberOfPolys())
@@ -187,7 +189,6 @@ vtkGodObjectFilter* vtkGodObjectTrace::PrepareSurface(vtkPolyData* surface)
     geometry->CopyStructure(surface);
     geometry->GetCellData()->AddArray(surface->GetCellGhostArray());
   }
-  this->SurfaceError.clear();
   this->Preparation->SetInputData(geometry);
   this->Preparation->Update();
   return this->Preparation;
@@ -232,8 +233,16 @@ int vtkGodObjectTrace::RequestData(
                   "polygons or strips.");
     return 1;
   }
+  vtkGodObjectFilter* const upstream = FindPreparation(this, 1);
+  if (upstream && !upstream->GetSurface() &&
+    !vtkGodObjectFilter::IsEmpty(vtkPolyData::SafeDownCast(upstream->GetInput())))
+  {
+    vtkErrorMacro("The surface at port 1 cannot be touched: the vtkGodObjectFilter before it has "
+                  "made none. Mend what that filter reports.");
+    return 1;
+  }
   vtkGodObjectFilter* prepared = this->PrepareSurface(surface);
-  if (!prepared->GetSurface())
+  if (!prepared->GetSurface() && !vtkGodObjectFilter::IsEmpty(surface))
   {
     vtkErrorMacro(<< "The surface at port 1 cannot be touched. " << this->SurfaceError);
     return 1;
@@ -251,8 +260,12 @@ void vtkGodObjectTrace::Replay(vtkPolyData* path, vtkGodObjectFilter* prepared, 
   const vtkIdType ticks = path->GetNumberOfPoints();
   vtkIdTypeArray* const originalCells = vtkIdTypeArray::SafeDownCast(
     prepared->GetOutput()->GetCellData()->GetAbstractArray("OriginalCellId"));
-  haptics::GodObject godObject(
-    { { prepared->GetSurface(), nullptr, prepared->GetSurfaceProperties() } });
+  std::vector<haptics::TouchedSurface> surfaces;
+  if (prepared->GetSurface())
+  {
+    surfaces.push_back({ prepared->GetSurface(), nullptr, prepared->GetSurfaceProperties() });
+  }
+  haptics::GodObject godObject(std::move(surfaces));
   haptics::WorkspaceTransform deviceToWorld;
   deviceToWorld.Scale = 1.0 / this->WorldToDeviceScale;
   haptics::ContactTick tick;
@@ -266,7 +279,8 @@ void vtkGodObjectTrace::Replay(vtkPolyData* path, vtkGodObjectFilter* prepared, 
   if (this->PassSurfaceArrays)
   {
     touched.emplace(prepared->GetOutput(), this->SurfaceArrays, ticks);
-    for (const std::string& name : touched->Missing())
+    const bool isEmpty = !prepared->GetSurface(); // then it may have lost its arrays as well
+    for (const std::string& name : isEmpty ? std::vector<std::string>() : touched->Missing())
     {
       vtkWarningMacro(<< "The surface has no array " << name << " for the trace.");
     }

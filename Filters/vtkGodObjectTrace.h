@@ -34,6 +34,8 @@
  * Arrays have their unit in their information, as vtkDataArray::UNITS_LABEL(), but for lengths in
  * the world unit, which nobody here knows.
  *
+ * A surface without points and cells is nothing to touch: the whole path is in free space.
+ *
  * The first HIP is taken as free space, whichever side of the surface it lies on. The same inputs
  * give the same output, bit for bit.
  *

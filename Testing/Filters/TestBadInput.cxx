@@ -1,8 +1,14 @@
 #include "FilterTesting.h"
 
 #include "vtkCallbackCommand.h"
+#include "vtkCellData.h"
+#include "vtkDataObject.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkGodObjectFilter.h"
+#include "vtkHapticProperties.h"
 #include "vtkNew.h"
+#include "vtkPointData.h"
 
 #include <gtest/gtest.h>
 
@@ -52,9 +58,46 @@ Parts CubeWith(double coordinate)
 }
 }
 
-TEST(BadInput, EmptyPolyData)
+/// A contour of a value that does not occur, an empty threshold or time step: nothing is wrong.
+TEST(BadInput, AnEmptyInputIsNoError)
 {
-  ExpectRefused(vtkSmartPointer<vtkPolyData>::New(), { "no polygon", "0 points" });
+  vtkNew<vtkGodObjectFilter> filter;
+  MessageCatcher messages(filter);
+  filter->GetProperties()->SetStiffness(300.0);
+  for (const vtkIdType cells : { 12, 0, 12, 0 })
+  {
+    vtkNew<vtkPolyData> empty;
+    vtkNew<vtkDoubleArray> heat; // what a filter leaves of its input's arrays
+    heat->SetName("Heat");
+    empty->GetPointData()->AddArray(heat);
+    filter->SetInputData(cells > 0 ? MakePolyData(Cube()).Get() : static_cast<vtkPolyData*>(empty));
+    filter->Update();
+    EXPECT_EQ(filter->GetSurface() != nullptr, cells > 0);
+    EXPECT_EQ(filter->GetSurfaceProperties() != nullptr, cells > 0);
+    EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), cells);
+    EXPECT_EQ(filter->GetOutput()->GetPointData()->HasArray("Heat"), cells == 0);
+    EXPECT_TRUE(filter->GetOutput()->GetPointData()->HasArray("OriginalPointId"));
+    EXPECT_TRUE(filter->GetOutput()->GetCellData()->HasArray("OriginalCellId"));
+    EXPECT_TRUE(filter->GetOutput()->GetFieldData()->HasArray("BoundaryEdges"));
+  }
+  EXPECT_EQ(messages.Errors() + messages.Warnings(), "");
+}
+
+/// Arrays that are chosen for something go with what vanishes.
+TEST(BadInput, AnEmptyInputNeedsNoArrays)
+{
+  vtkNew<vtkGodObjectFilter> filter;
+  MessageCatcher messages(filter);
+  filter->SetInputArrayToProcess(
+    vtkHapticProperties::STIFFNESS, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "K");
+  filter->SetInputArrayToProcess(
+    vtkGodObjectFilter::SIDE_ARRAY, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "sides");
+  filter->SetInputData(vtkSmartPointer<vtkPolyData>::New());
+  filter->Update();
+  EXPECT_EQ(messages.Errors() + messages.Warnings(), "");
+  filter->SetInputData(MakePolyData(Cube()));
+  filter->Update();
+  EXPECT_NE(messages.Errors().find("no array sides"), std::string::npos) << messages.Errors();
 }
 
 TEST(BadInput, LinesAndVertsOnly)

@@ -329,6 +329,63 @@ TEST(GodObjectTrace, RefusesASurfaceThatCannotBeTouched)
   ExpectRefused(Path({ { 0, 0, 1 } }), noSurface, "no polygon");
 }
 
+/// Nothing is there: the whole path is in free space, whichever filter has said so.
+TEST(GodObjectTrace, AnEmptySurfaceIsFreeSpace)
+{
+  vtkNew<vtkPolyData> empty;
+  vtkNew<vtkGodObjectFilter> filter;
+  filter->SetInputData(empty);
+  for (const bool isPrepared : { false, true })
+  {
+    vtkNew<vtkGodObjectTrace> trace;
+    MessageCatcher messages(trace);
+    trace->SetInputData(Path({ { 0, 0, 1 }, { 0, 0, -1 }, { 2, 0, 0 } }));
+    trace->AddSurfaceArray("Heat");
+    isPrepared ? trace->SetSurfaceConnection(filter->GetOutputPort())
+               : trace->SetSurfaceData(empty);
+    trace->Update();
+    vtkPolyData* const output = trace->GetOutput();
+    ASSERT_EQ(output->GetNumberOfPoints(), 3);
+    for (vtkIdType tick = 0; tick < 3; ++tick)
+    {
+      EXPECT_EQ(Tuple(output, "Force", tick), (Point{ 0, 0, 0 }));
+      EXPECT_EQ(Value(output, "Surface", tick), -1.0);
+      EXPECT_EQ(Value(output, "Penetration", tick), 0.0);
+      Point p;
+      output->GetPoint(tick, p.data());
+      EXPECT_EQ(p, Tuple(output, "HapticInterfacePoint", tick));
+    }
+    EXPECT_EQ(messages.Errors() + messages.Warnings(), "");
+
+    trace->SetSurfaceData(Plane()); // and back
+    trace->ClearSurfaceArrays();
+    trace->Update();
+    EXPECT_GT(Value(trace->GetOutput(), "Penetration", 1), 0.9);
+    EXPECT_EQ(messages.Errors(), "");
+  }
+}
+
+/// What a filter before it has refused is no empty surface.
+TEST(GodObjectTrace, RefusesWhatThePreparationBeforeItRefuses)
+{
+  vtkNew<vtkGodObjectFilter> filter;
+  MessageCatcher first(filter);
+  filter->SetInputData(Path({ { 0, 0, 0 } }));
+  vtkNew<vtkGodObjectTrace> trace;
+  MessageCatcher messages(trace);
+  trace->SetInputData(Path({ { 0, 0, 1 }, { 0, 0, -1 } }));
+  trace->SetSurfaceConnection(filter->GetOutputPort());
+  trace->Update();
+  EXPECT_NE(first.Errors().find("no polygon"), std::string::npos) << first.Errors();
+  EXPECT_NE(messages.Errors().find("before it has made none"), std::string::npos)
+    << messages.Errors();
+  EXPECT_EQ(trace->GetOutput()->GetNumberOfPoints(), 0);
+
+  filter->SetInputData(Plane()); // the remedy
+  trace->Update();
+  EXPECT_EQ(trace->GetOutput()->GetNumberOfPoints(), 2);
+}
+
 TEST(GodObjectTrace, CarriesWhatIsTouched)
 {
   auto plane = Plane();

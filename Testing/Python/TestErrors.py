@@ -94,8 +94,10 @@ class Errors(unittest.TestCase):
             scene.Engage()
 
     def test_a_filter(self):
+        points = vtkPolyData()  # an input without points either is empty, which is no error
+        points.SetPoints(vtkhaptics.meshes.points([[0.0, 0.0, 0.0]]))
         bad = vtkhaptics.vtkGodObjectFilter()
-        bad.SetInputData(vtkPolyData())
+        bad.SetInputData(points)
         with self.raises("vtkGodObjectFilter", "no polygon"):
             bad.Update()
         with self.assertRaises(HapticsError):  # the executive's: no input at all

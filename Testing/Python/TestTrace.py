@@ -43,6 +43,17 @@ class Surfaces(unittest.TestCase):
         np.testing.assert_allclose(t.force, PRESSED, atol=500.0 * 2.0**-21)
         return t
 
+    def test_an_empty_surface_is_free_space(self):
+        t = vtkhaptics.trace(vtkPolyData(), PATH)
+        np.testing.assert_array_equal(t.force, np.zeros((3, 3)))
+        np.testing.assert_array_equal(t.god_object, PATH)
+        self.assertFalse(t.touching.any())
+
+    def test_a_window_on_nothing_is_refused(self):
+        for nothing in (vtkPolyData(), vtkhaptics.tracing.path_data(PATH)):
+            with self.assertRaisesRegex(ValueError, "surface 1 has no polygons"):
+                vtkhaptics.touch((VERTICES, TRIANGLES), nothing)
+
     def test_vertices_and_faces(self):
         self.assertEqual(self.check((VERTICES, TRIANGLES)).cell.tolist(), [-1, 0, 1])
         self.assertEqual(self.check((VERTICES, [[0, 1, 2, 3]])).cell.tolist(), [-1, 0, 0])
@@ -137,7 +148,7 @@ class Refusals(unittest.TestCase):
         self.refused(ValueError, "at least three", (VERTICES, []))
         self.refused(vtkhaptics.HapticsError, "vtkGodObjectTrace: The surface at port 1 cannot",
             (np.zeros((3, 3)), [[0, 1, 2]]))
-        self.refused(vtkhaptics.HapticsError, "cannot be touched", vtkPolyData())
+        self.refused(vtkhaptics.HapticsError, "cannot be touched", vtkhaptics.tracing.path_data(PATH))
         from vtkhaptics.surfaces import SurfaceError
         self.refused(SurfaceError, "there is no such file", "none.stl")
 

@@ -41,8 +41,8 @@ def touch(
     Trace
         What was felt.
 
-    Raises what :func:`vtkhaptics.polydata` and :func:`vtkhaptics.enable` do, and HapticsError where
-    there is no display. For files alone ``python3 -m vtkhaptics FILE`` does more.
+    Raises what :func:`vtkhaptics.polydata` and :func:`vtkhaptics.enable` do, ValueError for a surface
+    without polygons, and HapticsError where there is no display. For files alone ``python3 -m vtkhaptics FILE`` does more.
     """
     from .coloring import color_by, scalar_bar
     from .display import needs_display
@@ -50,12 +50,18 @@ def touch(
 
     if not surfaces:
         raise TypeError("touch() needs at least one surface.")
+    shown = [polydata(surface) for surface in surfaces]
+    for index, surface in enumerate(shown):
+        if surface.GetNumberOfPolys() + surface.GetNumberOfStrips() == 0:
+            raise ValueError(
+                f"surface {index} has no polygons, hence nothing to touch "
+                f"({surface.GetNumberOfPoints()} points, {surface.GetNumberOfLines()} lines)."
+            )
     if needs_display():
         raise HapticsError(
             "there is no display to open a window on (DISPLAY is not set). Run it from a desktop or "
             "under xvfb-run; vtkhaptics.trace() needs none."
         )
-    shown = [polydata(surface) for surface in surfaces]
     renderer, window = vtkRenderer(), vtkRenderWindow()
     renderer.SetBackground(*BACKGROUND[0])
     renderer.SetBackground2(*BACKGROUND[1])

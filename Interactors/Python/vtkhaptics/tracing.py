@@ -60,7 +60,8 @@ def trace(
         One row for each position: ``.force`` (n, 3) [N], ``.god_object`` (n, 3), ...
 
     Raises ValueError and TypeError for arguments that are none of these, and HapticsError for a
-    surface that cannot be touched.
+    surface that cannot be touched. An empty one, as of a contour that has vanished, can: nothing is
+    felt.
 
     >>> t = vtkhaptics.trace((vertices, faces), path)
     >>> t.force                             # (n, 3) [N]
