@@ -28,8 +28,8 @@ struct DeviceSample
 
 /// @brief The servo thread's end of a device: plain, wait-free, no vtkObject.
 ///
-/// A vtkHapticDevice makes one when it opens. The two calls come in this order, once a tick, from
-/// the servo thread alone. Neither allocates, locks or logs.
+/// A vtkHapticDevice makes one when it opens. Read(), Write() and Notice() come in this order, once
+/// a tick, from the servo thread alone. None allocates, locks or logs.
 class VTKHAPTICSDEVICES_EXPORT DeviceChannel
 {
 public:
@@ -41,6 +41,10 @@ public:
 
   /// Asks for a force in the device frame [N], to be held until the next one.
   virtual void Write(const std::array<double, 3>& force) noexcept = 0;
+
+  /// For a hand that is simulated and sees more than its force: the way from the HIP to the
+  /// god-object in this tick, device frame [m]; 0 in free space and while clutched. After Write().
+  virtual void Notice(const std::array<double, 3>& displacement) noexcept { (void)displacement; }
 
   /// For a device that gets a force later than Write() returns: sleeps until what was written last
   /// has reached it or cannot any more, at most `timeout` [ns]. A run that has ended is followed by

@@ -128,6 +128,7 @@ bool ServoCycle::Tick(double time) noexcept
   safety.DeviceLatency = std::max(safety.DeviceLatency, sample.Latency);
   const Vec3 force = this->Guard.Force(contact, period, settings.Force, safety);
   this->Channel->Write(force);
+  this->Channel->Notice(settings.IsClutched ? Vec3{} : contact.Displacement);
 
   this->Now.Time = time;
   this->Now.Buttons = sample.Buttons;

@@ -18,9 +18,11 @@
 #include "vtkTransform.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 
 vtkStandardNewMacro(vtkMouseHapticDevice);
 
@@ -38,8 +40,8 @@ constexpr double DeepeningShare = 0.3; // of what is missing, at each look
 constexpr int MostPlacesBetween = 12;  // that are looked at between two places of the cursor
 constexpr double DeepestFold = 0.5;    // in pressing depths; a hand does not slide over deeper
 constexpr double StrayPixels = 12.0;   // more from the cursor than that is astray
-constexpr double TooDeep = 1.5;        // in depths that were told: put down anew at once
-constexpr double StrayDepth = 1.2;     // as is a hand that is deeper than it was told
+constexpr double AlongBall = 0.3;      // of its radius, at most, in a tick
+constexpr double GivesWayAt = 1.15;    // in depths that were told; a hand gives way to more
 constexpr double StrayTime = 0.05;     // [s] after which a hand that is astray is put down anew
 
 enum MouseButton : unsigned int
@@ -60,27 +62,42 @@ public:
     std::array<double, 3> Target{};
     std::array<double, 3> Place{};
     std::uint32_t Placements = 0; ///< whenever it changes the hand is there at once, from Place
+    double MostDepth = Unlimited; ///< below the god-object [m]
   };
+  static constexpr double Unlimited = std::numeric_limits<double>::infinity();
 
   MouseChannel(const std::array<double, 3>& target, double smoothing)
     : Smoothing(smoothing)
-    , Wanted(Order{ target, target, 0 })
+    , Wanted(Order{ target, target, 0, Unlimited })
     , Hand(target)
   {
     this->Latest.Target = target;
   }
 
-  void Move(const std::array<double, 3>& target)
+  void Move(const std::array<double, 3>& target, double mostDepth)
   {
     this->Latest.Target = target;
+    this->Latest.MostDepth = mostDepth;
     this->Wanted.Publish(this->Latest);
   }
 
-  void Place(const std::array<double, 3>& place, const std::array<double, 3>& target)
+  void Place(
+    const std::array<double, 3>& place, const std::array<double, 3>& target, double mostDepth)
   {
     this->Latest.Place = place;
     ++this->Latest.Placements;
-    this->Move(target);
+    this->Move(target, mostDepth);
+  }
+
+  /// Whether the surface keeps the hand from where it is to go. GUI thread.
+  bool IsKeptAway() const { return this->IsKept.load(std::memory_order_relaxed); }
+
+  /// The surface pushes a hand away that it would let deeper in than the hand was told: the
+  /// god-object stays behind at a fold or a rim, and whoever looks at it does so only between two
+  /// pictures.
+  void Notice(const std::array<double, 3>& displacement) noexcept override
+  {
+    this->Displacement = displacement;
   }
 
 protected:
@@ -92,10 +109,11 @@ protected:
     {
       this->Placements = order.Placements;
       this->Hand = order.Target;
+      this->IsKept.store(false, std::memory_order_relaxed);
     }
     else
     {
-      this->Approach(order.Target, std::max(0.0, time - this->LastTime));
+      this->Approach(order, std::max(0.0, time - this->LastTime));
     }
     this->LastTime = time;
     sample.Position = this->Hand;
@@ -108,27 +126,53 @@ protected:
   void WriteDevice(const std::array<double, 3>&) noexcept override {}
 
 private:
-  void Approach(const std::array<double, 3>& target, double elapsed) noexcept
+  void Approach(const Order& order, double elapsed) noexcept
   {
-    const double share = this->Smoothing > 0.0 ? 1.0 - std::exp(-elapsed / this->Smoothing) : 1.0;
-    double left = 0.0;
+    double share = this->Smoothing > 0.0 ? 1.0 - std::exp(-elapsed / this->Smoothing) : 1.0;
+    double step[3];
+    vtkMath::Subtract(order.Target.data(), this->Hand.data(), step);
+    if ((1.0 - share) * vtkMath::Norm(step) < Arrived)
+    {
+      share = 1.0; // so that a hand at rest gives the same picture, which is not drawn again
+    }
+    vtkMath::MultiplyScalar(step, share);
+    // Rounding leaves a hand that is kept just inside.
+    const bool isKept = vtkMath::Norm(this->Displacement.data()) >= (1.0 - 1e-9) * order.MostDepth;
+    this->IsKept.store(isKept, std::memory_order_relaxed);
+    if (isKept)
+    {
+      this->GoRound(order.MostDepth, step);
+    }
+    vtkMath::Add(this->Hand.data(), step, this->Hand.data());
+  }
+
+  /// Where the god-object has not followed, the hand goes no farther from it than `radius`: back to
+  /// the ball of that radius around it, and along it.
+  void GoRound(double radius, double step[3]) const noexcept
+  {
+    const double* toGod = this->Displacement.data();
+    const double distance = vtkMath::Norm(toGod);
+    const double outwards = std::max(0.0, -vtkMath::Dot(step, toGod)) / (distance * distance);
     for (int i = 0; i < 3; ++i)
     {
-      this->Hand[i] += share * (target[i] - this->Hand[i]);
-      left = std::max(left, std::abs(target[i] - this->Hand[i]));
+      step[i] += outwards * toGod[i];
     }
-    if (left < Arrived) // so that a hand at rest gives the same picture, which is not drawn again
+    const double length = vtkMath::Norm(step);
+    const double share = std::min(1.0, AlongBall * radius / std::max(length, Arrived));
+    for (int i = 0; i < 3; ++i)
     {
-      this->Hand = target;
+      step[i] = share * step[i] + (1.0 - radius / distance) * toGod[i];
     }
   }
 
   const double Smoothing;
   Order Latest; // the GUI thread's
   haptics::LatestValue<Order> Wanted;
-  std::array<double, 3> Hand; // the servo thread's, as what follows
+  std::array<double, 3> Hand;           // the servo thread's, as what follows
+  std::array<double, 3> Displacement{}; // to the god-object, at the last tick
   std::uint32_t Placements = 0;
   double LastTime = 0.0;
+  std::atomic<bool> IsKept{ false };
 };
 
 /// Where on a surface the cursor was.
@@ -538,11 +582,11 @@ void vtkMouseHapticDevice::Want(const double world[3], const double* place)
       std::isfinite(target[0] + target[1] + target[2]))
     {
       std::copy(target, target + 3, this->Target.begin());
-      this->Mouse->Place(start, this->Target);
+      this->Mouse->Place(start, this->Target, this->MostDepth());
       return;
     }
   }
-  this->SetTarget(target[0], target[1], target[2]);
+  this->MoveHand(target);
 }
 
 /// Whether the surface between the last place of the cursor and this one is one that a hand can
@@ -708,10 +752,8 @@ void vtkMouseHapticDevice::WatchContact()
   vtkMath::Subtract(god, this->Hit, away);
   const double depth = this->PressingDepth() * this->Scale();
   const bool isAstray = !this->Scene->GetTouching() ||
-    vtkMath::Norm(away) > std::max(depth, StrayPixels * this->Pixel) ||
-    this->Scene->GetPenetration() > StrayDepth * depth;
-  const bool isDeep = this->Scene->GetPenetration() > TooDeep * depth;
-  if (isDeep || (!isAstray && this->IsHidden(view, god)))
+    vtkMath::Norm(away) > std::max(depth, StrayPixels * this->Pixel) || this->Mouse->IsKeptAway();
+  if (!isAstray && this->IsHidden(view, god))
   {
     this->Follow(true);
     return;
@@ -737,18 +779,31 @@ void vtkMouseHapticDevice::WatchContact()
 
 void vtkMouseHapticDevice::SetTarget(double x, double y, double z)
 {
-  if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z))
+  this->IsPressing = false; // a script's hand is pressed as deep as it says
+  const double target[3] = { x, y, z };
+  this->MoveHand(target);
+}
+
+void vtkMouseHapticDevice::MoveHand(const double target[3])
+{
+  if (!std::isfinite(target[0] + target[1] + target[2]))
   {
-    vtkErrorMacro("The hand cannot be drawn to (" << x << ", " << y << ", " << z
-                                                  << "), which is not finite; it stays. Check the "
-                                                     "camera and the workspace transform.");
+    vtkErrorMacro("The hand cannot be drawn to ("
+      << target[0] << ", " << target[1] << ", " << target[2]
+      << "), which is not finite; it stays. Check the camera and the workspace transform.");
     return;
   }
-  this->Target = { { x, y, z } };
+  std::copy(target, target + 3, this->Target.begin());
   if (this->Mouse)
   {
-    this->Mouse->Move(this->Target);
+    this->Mouse->Move(this->Target, this->MostDepth());
   }
+}
+
+/// How deep the hand may be below the god-object [m], device frame.
+double vtkMouseHapticDevice::MostDepth()
+{
+  return this->IsPressing ? GivesWayAt * this->PressingDepth() : MouseChannel::Unlimited;
 }
 
 void vtkMouseHapticDevice::GetTarget(double target[3])

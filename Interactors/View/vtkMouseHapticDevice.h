@@ -30,7 +30,8 @@
  * all the same, at 1 kHz, and shown: as the arrow of vtkGodObjectActor, and as a bar and a number
  * by vtkHapticOverlay. The servo draws the pressing hand to the mouse's position smoothly, as an
  * arm would move, with the time constant Smoothing: 60 mouse events a second would be felt as
- * steps.
+ * steps. Where the god-object cannot follow, as at a fold, the hand gives way: it stays within 1.15
+ * of the depth that was told, and is put down anew once that has lasted for 50 ms.
  *
  * vtkInteractorStyleHaptic connects it where it is the device of its scene. Without one, call
  * SetInteractor() and SetScene().
@@ -161,6 +162,8 @@ private:
   double Scale();
   void ToDevice(const double world[3], double device[3]);
   void Want(const double world[3], const double* place);
+  void MoveHand(const double target[3]);
+  double MostDepth();
 
   vtkWeakPointer<vtkRenderWindowInteractor> Interactor;
   vtkWeakPointer<vtkHapticScene> Scene;

@@ -7,8 +7,12 @@
 #include "StyleTestTools.h"
 
 #include "vtkCamera.h"
+#include "vtkCellArray.h"
 #include "vtkHapticOverlay.h"
 #include "vtkMouseHapticDevice.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
 
 #include <gtest/gtest.h>
 
@@ -16,6 +20,30 @@
 
 namespace
 {
+/// A table at z = 0, 0.2 m wide, that slopes by 1 mm to a slit along y: two walls that meet below.
+vtkSmartPointer<vtkPolyData> MakeSlit(double width, double depth)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkCellArray> quads;
+  const double profile[7][2] = { { -0.1, 0.0 }, { -0.006, 0.0 }, { -0.5 * width, -0.001 },
+    { 0.0, -depth }, { 0.5 * width, -0.001 }, { 0.006, 0.0 }, { 0.1, 0.0 } };
+  for (const auto& corner : profile)
+  {
+    points->InsertNextPoint(corner[0], -0.1, corner[1]);
+    points->InsertNextPoint(corner[0], 0.1, corner[1]);
+  }
+  for (vtkIdType i = 0; i < 12; i += 2)
+  {
+    const vtkIdType quad[4] = { i, i + 2, i + 3, i + 1 };
+    quads->InsertNextCell(4, quad);
+  }
+  vtkNew<vtkPolyData> slit;
+  slit->SetPoints(points);
+  slit->SetPolys(quads);
+  return slit;
+}
+
 struct MouseWindow : Window
 {
   vtkNew<vtkMouseHapticDevice> Mouse;
@@ -116,6 +144,57 @@ TEST(MouseHapticDevice, IsPutDownBehindAnEdgeAndWaitsOverNothing)
   window.Tick();
   EXPECT_FALSE(window.Mouse->GetWaiting());
   EXPECT_TRUE(window.Hand.Scene->GetTouching()) << "the key is held all the while";
+}
+
+// A slit that no pixel shows, as between two folds of a cortex. The hand slides over it, and the
+// god-object falls in, after which nobody looks for a while, as while a large picture is drawn:
+//
+//        o hand  -->
+//     ----_________  _________-----
+//                  ||
+//                  ||
+//                 o  god-object, kept from following
+TEST(MouseHapticDevice, AHandIsNoDeeperThanItWasToldWhereAFoldHoldsTheGodObject)
+{
+  MouseWindow window;
+  window.Mouse->Close();
+  window.Mouse->SetSmoothing(0.012);
+  window.Mouse->Open();
+  const double middle[3] = { 0.0, 0.0, 0.0 };
+  double at[2];
+  window.Project(middle, at);
+  const int x = static_cast<int>(at[0]);
+  vtkNew<vtkActor> slit;
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(MakeSlit(2e-5, 0.02));
+  slit->SetMapper(mapper);
+  slit->SetPosition(0.001, 0.0, 0.01); // between two pixels
+  window.Renderer->AddActor(slit);
+  window.Hand.Scene->AddSurface(slit);
+  window.Timer();
+  window.Send(vtkCommand::MouseMoveEvent, x - 4, 50);
+  window.Send(vtkCommand::KeyPressEvent, x - 4, 50, "space");
+  window.Hand.Scene->Step(200);
+  ASSERT_NEAR(window.Hand.Scene->GetPenetration(), 0.003, 1e-5);
+  window.Send(vtkCommand::MouseMoveEvent, x + 5, 50);
+  int deep = 0;
+  for (int i = 0; i < 300; ++i)
+  {
+    window.Tick();
+    deep += window.Hand.Scene->GetPenetration() > 1.25 * 0.003;
+  }
+  ASSERT_LT(window.Hand.Scene->GetGodObject()[2], 0.0089)
+    << "it is in the slit, or this shows nothing";
+  EXPECT_LE(deep, 1) << "the tick in which the hand notices it";
+  EXPECT_GT(window.Hand.Scene->GetPenetration(), 0.0031) << "it goes as far as that";
+  // Whoever looks again puts the hand down where the cursor is.
+  for (int i = 0; i < 20; ++i)
+  {
+    window.Timer();
+    window.Tick();
+  }
+  EXPECT_NEAR(window.Hand.Scene->GetGodObject()[2], 0.01, Clearance);
+  EXPECT_NEAR(window.Hand.Scene->GetPenetration(), 0.003, 1e-5);
 }
 
 TEST(MouseHapticDevice, ShiftWithTheLeftButtonPressesAndLeavesTheCameraAlone)
