@@ -13,6 +13,17 @@ namespace
 constexpr double LargestCosine = 0.5;
 /// Lips go on beside each other for so many times the gap's width, or they are none.
 constexpr double LengthOfGap = 16.0;
+/// So many widths from an edge is on it.
+constexpr double Beside = 1.0 / 16.0;
+
+double SquaredDistanceToSegment(const Vector& x, const Vector& from, const Vector& to)
+{
+  const Vector edge = to - from;
+  const double squared = SquaredLength(edge);
+  const double along =
+    squared > 0.0 ? std::clamp(glm::dot(x - from, edge) / squared, 0.0, 1.0) : 0.0;
+  return SquaredLength(x - (from + along * edge));
+}
 
 Vector NearestOn(const std::array<Vector, 3>& corners, const Vector& x)
 {
@@ -45,9 +56,10 @@ void NearestOfSegments(const Vector& a, const Vector& b, const Vector& p, const 
 }
 }
 
-void NarrowGap::Add(const Vector& a, const Vector& b, const Vector& c, double width)
+void NarrowGap::Add(const Vector& a, const Vector& b, const Vector& c,
+  const std::array<bool, 3>& areOpen, double width)
 {
-  Lip lip{ { a, b, c }, a, Vector(0.0), width };
+  Lip lip{ { a, b, c }, a, Vector(0.0), width, {} };
   double least = HUGE_VAL;
   const auto take = [&](const Vector& onFacet, const Vector& onWay)
   {
@@ -75,6 +87,14 @@ void NarrowGap::Add(const Vector& a, const Vector& b, const Vector& c, double wi
   {
     return;
   }
+  const double beside = Beside * width;
+  for (int k = 0; k < 3; ++k)
+  {
+    lip.AreOpen[k] = areOpen[k] &&
+      SquaredDistanceToSegment(lip.Nearest, lip.Corners[k], lip.Corners[(k + 1) % 3]) <=
+        beside * beside;
+  }
+  this->HasOpen = this->HasOpen || lip.IsOpen();
   if (this->Count == Capacity)
   {
     this->IsFull = true;
@@ -83,25 +103,22 @@ void NarrowGap::Add(const Vector& a, const Vector& b, const Vector& c, double wi
   this->Lips[this->Count++] = lip;
 }
 
-/// Whether, along an edge of the lip from its nearest point on, the other one stays within `width`.
-/// `isOnEdge` is set where that point is on an edge.
-bool NarrowGap::StaysNear(const Lip& lip, const Lip& other, double width, bool& isOnEdge)
+/// Whether, along an open edge of the lip from its nearest point on, the other one stays within
+/// `width`.
+bool NarrowGap::StaysNear(const Lip& lip, const Lip& other, double width)
 {
   const double length = LengthOfGap * lip.Width;
   for (int k = 0; k < 3; ++k)
   {
+    if (!lip.AreOpen[k])
+    {
+      continue;
+    }
     const Vector& from = lip.Corners[k];
     const Vector& to = lip.Corners[(k + 1) % 3];
     const double edge = glm::length(to - from);
     const Vector along = edge > 0.0 ? (to - from) / edge : Vector(0.0);
     const double at = glm::dot(lip.Nearest - from, along);
-    const double beside = 0.0625 * lip.Width;
-    if (!(edge > 0.0) ||
-      SquaredLength(lip.Nearest - (from + std::clamp(at, 0.0, edge) * along)) > beside * beside)
-    {
-      continue;
-    }
-    isOnEdge = true;
     for (const double end : { std::max(at - length, 0.0), std::min(at + length, edge) })
     {
       const Vector point = from + end * along;
@@ -117,6 +134,10 @@ bool NarrowGap::StaysNear(const Lip& lip, const Lip& other, double width, bool& 
 
 bool NarrowGap::IsFound() const
 {
+  if (!this->HasOpen)
+  {
+    return false;
+  }
   for (int i = 0; i < this->Count; ++i)
   {
     for (int j = i + 1; j < this->Count; ++j)
@@ -126,15 +147,15 @@ bool NarrowGap::IsFound() const
       const double width = std::min(a.Width, b.Width);
       const auto isShared = [&b](const Vector& corner)
       { return std::find(b.Corners.begin(), b.Corners.end(), corner) != b.Corners.end(); };
-      const bool areNeighbours = std::count_if(a.Corners.begin(), a.Corners.end(), isShared) > 1;
-      if (areNeighbours || SquaredLength(a.Nearest - b.Nearest) > width * width ||
+      if ((!a.IsOpen() && !b.IsOpen()) ||
+        std::count_if(a.Corners.begin(), a.Corners.end(), isShared) > 1 ||
+        SquaredLength(a.Nearest - b.Nearest) > width * width ||
         glm::dot(a.Offset, b.Offset) >
           LargestCosine * glm::length(a.Offset) * glm::length(b.Offset))
       {
         continue;
       }
-      bool isOnEdge = false;
-      if (StaysNear(a, b, width, isOnEdge) || StaysNear(b, a, width, isOnEdge) || !isOnEdge)
+      if (StaysNear(a, b, width) || StaysNear(b, a, width))
       {
         return true;
       }

@@ -10,8 +10,9 @@ namespace haptics
 /// @brief Whether a straight way squeezes through a gap that facets reach over.
 ///
 /// A gap has two lips: facets on either side of the way that are near each other, there and along
-/// one of their edges. Facets that part at an angle from a common corner are
-/// no lips, however near the corner the way passes: theirs is no gap to close.
+/// an edge of one of them that no other facet shares. Facets that part at an angle from a common
+/// corner are no lips, however near the corner the way passes: theirs is no gap to close. What lies
+/// between facets that share their edges, as a fold or the tip of a cone, is none either.
 class NarrowGap
 {
 public:
@@ -21,9 +22,11 @@ public:
   {
   }
 
-  /// A facet that may be near the way; a gap beside it is not wider than `width`.
-  void Add(const Vector& a, const Vector& b, const Vector& c, double width);
-  /// Whether there is a gap; also where there are too many facets to tell.
+  /// A facet that may be near the way; a gap beside it is not wider than `width`. `areOpen`: its
+  /// edges ab, bc and ca, whether no other facet shares them.
+  void Add(const Vector& a, const Vector& b, const Vector& c, const std::array<bool, 3>& areOpen,
+    double width);
+  /// Whether there is a gap; also where there are open edges among too many facets to tell.
   bool IsFound() const;
 
 private:
@@ -33,14 +36,18 @@ private:
     Vector Nearest{ 0 }; ///< of its points to the way
     Vector Offset{ 0 };  ///< to there from the way
     double Width = 0.0;
+    std::array<bool, 3> AreOpen{}; ///< edges that the nearest point is on, and that are open
+
+    bool IsOpen() const { return this->AreOpen[0] || this->AreOpen[1] || this->AreOpen[2]; }
   };
-  static bool StaysNear(const Lip& lip, const Lip& other, double width, bool& isOnEdge);
+  static bool StaysNear(const Lip& lip, const Lip& other, double width);
 
   static constexpr int Capacity = 32;
   Vector From, To;
   std::array<Lip, Capacity> Lips;
   int Count = 0;
   bool IsFull = false;
+  bool HasOpen = false;
 };
 }
 

@@ -199,7 +199,7 @@ Coverage WorkingSet::CoverageAt(std::int32_t triangle, const Vector& normal, dou
   return CoverageOf(
     normal, a, b, c, x, GrowthOverSharedEdges * clearance + wayError,
     GrowthOverGaps * clearance + wayError,
-    [&](int edge) { return this->Touched->AdjacentTriangles()[triangle][edge] == BoundaryEdge; },
+    [&](int edge) { return this->IsOpenEdge(triangle, edge); },
     nearest);
 }
 
@@ -667,9 +667,13 @@ bool WorkingSet::IsOpen(const Vector& goal, WorkBudget& budget, NarrowGap& gap)
     const double width = WidthOfGaps * this->Clearance[i];
     if (this->MeetsBox(i, to, 2.0 * width))
     {
-      const auto [a, b, c] = this->CornersOf(this->Triangles[i]);
+      const std::int32_t triangle = this->Triangles[i];
+      const auto [a, b, c] = this->CornersOf(triangle);
       gap.Add(this->ToSurface.PointToScene(a), this->ToSurface.PointToScene(b),
-        this->ToSurface.PointToScene(c), width);
+        this->ToSurface.PointToScene(c),
+        { this->IsOpenEdge(triangle, 0), this->IsOpenEdge(triangle, 1),
+          this->IsOpenEdge(triangle, 2) },
+        width);
     }
   }
   return true;

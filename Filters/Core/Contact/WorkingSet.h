@@ -199,6 +199,11 @@ private:
     }
     return true;
   }
+  /// Whether no other triangle shares the edge from a triangle's corner `edge` to the next.
+  bool IsOpenEdge(std::int32_t triangle, int edge) const
+  {
+    return this->Touched->AdjacentTriangles()[triangle][edge] == BoundaryEdge;
+  }
   /// A gathered triangle that a motion touches from the side that can be touched, or -1.
   std::int32_t FindTouched(const Vector& to);
   struct Corners
