@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <string>
 
 using namespace haptics;
 using namespace haptics::testing;
@@ -422,6 +423,108 @@ TEST(PlainView, TheTipOfAConeHoldsNothingInTheOpen)
       }
     }
   }
+}
+
+//   o        x under the tip's other side: a tip where so many facets meet is one too, however
+//    \\|//   near the god-object came to it
+TEST(PlainView, TheTipOfAFineConeLetsGo)
+{
+  constexpr int Sides = 48;
+  TriangleMesh cone;
+  cone.Points = { { 0, 0, 0.5 }, { 0, 0, -0.5 } };
+  for (int i = 0; i < Sides; ++i)
+  {
+    const double a = 360.0 * Degree * i / Sides;
+    cone.Points.push_back({ 0.3 * std::cos(a), 0.3 * std::sin(a), -0.5 });
+    const int next = 2 + (i + 1) % Sides;
+    cone.Triangles.push_back({ 0, 2 + i, next });
+    cone.Triangles.push_back({ 1, next, 2 + i });
+  }
+  GodObject god({ MakeSurface(cone, Side::Front) });
+  for (int i = 0; i < Sides; ++i)
+  {
+    const Vec3& from = cone.Points[2 + i];
+    god.Place(1.1 * from);
+    god.Update(from);
+    god.Update(from);
+    god.Update(cone.Points[0]);
+    god.Update(cone.Points[0]);
+    const Vec3& hip = cone.Points[2 + (i + 7) % Sides];
+    for (int tick = 0; tick < 4; ++tick)
+    {
+      god.Update(hip);
+    }
+    EXPECT_LT(god.Current().Penetration, 1e-12) << "from corner " << i;
+  }
+}
+
+//       o
+//    __/_\__     a sliver thinner than rounding lies along the edge of a roof, and the HIP is under
+//   /   x   \    one of its slopes: the sliver is a part of the edge, no wire to hang on
+TEST(PlainView, ASliverAlongAnEdgeHoldsNothing)
+{
+  for (const double height : { 1e-15, 1e-14 })
+  {
+    for (const Side side : { Side::Front, Side::Both })
+    {
+      const double slope = 0.2;
+      TriangleMesh roof;
+      roof.Points = { { -1, 0, 0 }, { 1, 0, 0 }, { 0, -1, -slope }, { 0, 1, -slope },
+        { 0.1, height, -slope * height } };
+      roof.Triangles = { { 0, 2, 1 }, { 0, 1, 4 }, { 1, 3, 4 }, { 3, 0, 4 } };
+      GodObject god({ MakeSurface(roof, side) });
+      for (const double aside : { -2e-3, -1e-3, 1e-3, 2e-3 })
+      {
+        // Straight through the edge.
+        const Vec3 hip{ 0.05, aside, -0.02 };
+        god.Place({ 0.05, -aside, 0.02 });
+        for (int tick = 0; tick < 8; ++tick)
+        {
+          god.Update(hip);
+        }
+        // On either slope; the edge itself is farther away than both.
+        const double depth = god.Current().Penetration * std::hypot(1.0, slope);
+        EXPECT_NEAR(std::abs(depth - 0.02), slope * std::abs(aside), 1e-9)
+          << "height " << height << ", " << aside << " beside the edge";
+      }
+    }
+  }
+}
+
+//  Four sheets that meet in a point: near it two reach over each other's gap, each under the
+//  other's plane. The hand goes between them.
+TEST(PlainView, SheetsThatReachOverEachOtherDoNotHoldTogether)
+{
+  const Vec3 tip{ 4.4988286874425167, -1.498787241627225, -0.041994813316285962 };
+  TriangleMesh sheets;
+  sheets.Points = { tip, { 5.1827879726114006, -0.76926705943123519, -0.3959228057635264 },
+    { 4.9834792827716665, -0.62407940443408449, 0.094856923931356307 },
+    { 4.6153985991196294, -0.50560475301217167, 0.26512215283838086 },
+    { 3.923401331841827, -2.316640136973569, -0.4132190903490115 },
+    { 4.3251893700556288, -2.4835965569047644, -0.31909290148820568 },
+    { 5.0942312625737873, -2.3022147576652632, -0.22620209634467317 },
+    { 5.335903303037437, -2.0458759802488657, 0.02785250141084171 },
+    { 5.4791398435896639, -1.6962461921294629, -0.3796278190587728 } };
+  sheets.Triangles = { { 0, 1, 2 }, { 0, 3, 4 }, { 0, 5, 6 }, { 0, 7, 8 } };
+  const Vec3 step{ 1.567086979498e-4, 1.779552937809e-4, -6.349685042254e-4 };
+  SurfaceOptions options;
+  options.TouchedSide = Side::Both;
+  options.CrackWidth = 5.5e-12;
+  std::string error;
+  GodObject god({ TriangleSurface::Build(sheets, options, error) });
+  god.Place({ 4.4983031017057401, -1.4993840863806000, -0.0398651906884979 });
+  Vec3 hip{ 4.4986165191016392, -1.4990281757931578, -0.041135127696907949 };
+  god.Update(hip);
+  for (int tick = 0; tick < 4; ++tick)
+  {
+    hip = hip + step;
+    god.Update(hip);
+  }
+  for (int tick = 0; tick < 8; ++tick)
+  {
+    god.Update(hip);
+  }
+  EXPECT_LT(god.Current().Penetration, 1e-6);
 }
 
 //  --------o->------      exactly in the plane of a sheet: nothing is crossed, so nothing

@@ -14,6 +14,31 @@ constexpr int LargestNumberOfHalvings = 6;
 /// A god-object is at its HIP when it is so many clearances from it: as near as what it touches
 /// lets it come.
 constexpr double NearEnough = 8.0;
+
+/// Facets whose planes were let go of in a pass.
+class FacetsPassedOver
+{
+public:
+  bool Has(const FacetId& facet) const
+  {
+    return std::find(this->Facets.begin(), this->Facets.begin() + this->Count, facet) !=
+      this->Facets.begin() + this->Count;
+  }
+  /// False where there are too many.
+  bool Add(const FacetId& facet)
+  {
+    if (this->Count == static_cast<int>(this->Facets.size()))
+    {
+      return false;
+    }
+    this->Facets[this->Count++] = facet;
+    return true;
+  }
+
+private:
+  std::array<FacetId, LargestNumberOfCasts> Facets;
+  int Count = 0;
+};
 }
 
 GodObject::Implementation::Implementation(std::vector<TouchedSurface> surfaces)
@@ -197,6 +222,7 @@ bool GodObject::Implementation::Pass(const Vector& hip)
   // first, so it is left out.
   this->KeepSupports(false);
   Vector goal = this->Active.IsEmpty() ? hip : this->Active.Nearest(this->Position, hip);
+  FacetsPassedOver passed;
   for (int cast = 0; cast < LargestNumberOfCasts; ++cast)
   {
     FacetHit hit;
@@ -233,8 +259,17 @@ bool GodObject::Implementation::Pass(const Vector& hip)
       return false;
     }
     // One that was met beyond its facet's edge, which is under the new one, is in nobody's way.
-    this->Active.Keep([&](const ActivePlane& plane)
-      { return !this->Sets[plane.Facet.Surface].IsPassedOver(plane, this->Position, hit.Plane); });
+    // Where two are under each other, the one that is met again has both stay.
+    if (!passed.Has(hit.Plane.Facet))
+    {
+      this->Active.Keep(
+        [&](const ActivePlane& plane)
+        {
+          const bool isPassedOver =
+            this->Sets[plane.Facet.Surface].IsPassedOver(plane, this->Position, hit.Plane);
+          return !isPassedOver || !passed.Add(plane.Facet);
+        });
+    }
     this->Active.Add(hit.Plane);
     goal = this->Active.Nearest(this->Position, hip);
   }

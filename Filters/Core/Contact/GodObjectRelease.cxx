@@ -9,16 +9,22 @@ namespace haptics
 namespace
 {
 /// Planes to try: those that hold, and those of facets in the way of a try.
-constexpr int MostPlanes = 6;
+constexpr int MostPlanes = 8;
 /// How far behind a plane a try ends, in its clearances: not so near that the next cast meets it
 /// again.
 constexpr double DepthBehind = 4.0;
 /// A motion along planes has to come so much nearer to the goal, of its length.
 constexpr double LeastDescent = 1e-3;
-/// A goal rests that moves no more than this share of its distance in an update.
-constexpr double RestingShare = 0.02;
-/// Pulls with this cosine between them, a third of a thousandth, get the same answer.
+/// A goal all but rests that moves no more than this share of its distance in an update, and rests
+/// with this one.
+constexpr double SlowShare = 0.02;
+constexpr double RestingShare = 1e-5;
+/// Pulls with this cosine between them, a third of a thousandth, get the same answer; those of a
+/// goal that does not rest with that one, a twentieth: there it is not worth asking in each update.
 constexpr double SameDirection = 1.0 - 5e-8;
+constexpr double AlmostSameDirection = 1.0 - 1.25e-3;
+/// A position is another one from so many clearances on.
+constexpr double SamePlace = 0.25;
 
 /// The planes that a god-object tries to go along.
 struct Tries
@@ -184,14 +190,19 @@ bool GodObject::Implementation::MayBeReleased(const Vector& pull)
     least = std::max(least, DepthBehind * this->Active.Support(i).Clearance);
   }
   const double moved = SquaredLength(this->Position - ToVector(this->Way[0]));
-  if (moved > least * least || this->GoalMoved > RestingShare * glm::length(pull))
+  const double distance = glm::length(pull);
+  if (moved > least * least || this->GoalMoved > SlowShare * distance)
   {
     return false;
   }
   const std::array<FacetId, 3> facets = this->Active.SupportFacets();
-  const double lengths = glm::length(pull) * glm::length(this->Refused.Pull);
-  const bool isSame = this->Position == this->Refused.Position && facets == this->Refused.Facets &&
-    glm::dot(pull, this->Refused.Pull) >= SameDirection * lengths && lengths > 0.0;
+  const double same = SamePlace / DepthBehind * least;
+  const double cosine =
+    this->GoalMoved > RestingShare * distance ? AlmostSameDirection : SameDirection;
+  const double lengths = distance * glm::length(this->Refused.Pull);
+  const bool isSame = SquaredLength(this->Position - this->Refused.Position) <= same * same &&
+    facets == this->Refused.Facets && glm::dot(pull, this->Refused.Pull) >= cosine * lengths &&
+    lengths > 0.0;
   if (!isSame)
   {
     this->Refused = { this->Position, pull, facets };

@@ -43,7 +43,7 @@ WorkingSet::WorkingSet(
   this->Found.resize(capacity);
   this->Triangles.resize(capacity);
   this->Flipped.resize(capacity);
-  this->IsWire.resize(capacity);
+  this->Widths.resize(capacity);
   for (auto* values :
     { &this->NormalX, &this->NormalY, &this->NormalZ, &this->PlaneOffset, &this->Error,
       &this->Clearance, &this->Distance, &this->TargetDistance, &this->Limit, &this->Low[0],
@@ -199,8 +199,7 @@ Coverage WorkingSet::CoverageAt(std::int32_t triangle, const Vector& normal, dou
   return CoverageOf(
     normal, a, b, c, x, GrowthOverSharedEdges * clearance + wayError,
     GrowthOverGaps * clearance + wayError,
-    [&](int edge) { return this->IsOpenEdge(triangle, edge); },
-    nearest);
+    [&](int edge) { return this->IsOpenEdge(triangle, edge); }, nearest);
 }
 
 /// Whether the facet is under x. Where it only reaches over a gap, what stands on the other lip of
@@ -249,9 +248,9 @@ void WorkingSet::MeasureTarget(const Vector& to)
 
 void WorkingSet::TurnToPosition()
 {
-  if (this->HasWires)
+  if (this->HasThin)
   {
-    this->TurnWires();
+    this->TurnThin();
   }
   if (this->Touched->TouchedSide() == Side::Front)
   {
@@ -259,7 +258,7 @@ void WorkingSet::TurnToPosition()
   }
   for (std::int32_t i = 0; i < this->Count; ++i)
   {
-    if (this->Distance[i] > this->Error[i] || this->IsWire[i] ||
+    if (this->Distance[i] > this->Error[i] || this->Widths[i] != Width::Broad ||
       !this->Touched->TouchesBack(this->Triangles[i]))
     {
       continue;
@@ -283,17 +282,22 @@ void WorkingSet::TurnToPosition()
   }
 }
 
-void WorkingSet::TurnWires()
+void WorkingSet::TurnThin()
 {
   for (std::int32_t i = 0; i < this->Count; ++i)
   {
-    if (!this->IsWire[i])
+    if (this->Widths[i] == Width::Broad)
     {
       continue;
     }
     const auto [a, b, c] = this->CornersOf(this->Triangles[i]);
     const bool isBehind = Orientation(a, b, c, this->Position) < 0;
     this->Flipped[i] = isBehind && this->Touched->TouchesBack(this->Triangles[i]) ? 1 : 0;
+    if (this->Widths[i] == Width::Seam)
+    {
+      this->Distance[i] = -std::numeric_limits<double>::max(); // nothing meets it
+      continue;
+    }
     const Facet facet(a, b, c);
     const Vector& anchor = facet.Corner[facet.Anchor];
     const Vector along =
@@ -482,7 +486,7 @@ FacetHit WorkingSet::Scan(const Vector& to, const ActivePlanes& active)
     hit.Plane.Anchor = this->ToSurface.PointToScene(this->CornersOf(triangle).A);
     hit.Plane.Clearance = this->Clearance[i];
     hit.Plane.IsFar = this->Covered == Region::Segment;
-    hit.Plane.IsOfWire = this->IsWire[i] != 0;
+    hit.Plane.IsOfWire = this->Widths[i] == Width::Wire;
   }
   return hit;
 }

@@ -172,12 +172,13 @@ private:
   /// that will be asked for is farther from Centre.
   void Fill(const TriangleList& found, const Vector& middle, double radius, double farthest);
   bool FillThin(std::int32_t i, double farthest);
+  bool IsSeam(std::int32_t triangle, const Facet& facet, double clearance) const;
   void KeepClearOfRounding();
   void Measure(const Vector& x, std::vector<double>& distances) const;
   void MeasurePosition();
   void MeasureTarget(const Vector& to);
   void TurnToPosition();
-  void TurnWires();
+  void TurnThin();
   void SetLimits();
   void GrowEmptyBall(double nearest);
   FacetHit Scan(const Vector& to, const ActivePlanes& active);
@@ -287,11 +288,19 @@ private:
   std::vector<std::int32_t> Found;
   std::vector<std::int32_t> Triangles;
   std::vector<std::uint8_t> Flipped;
-  /// A triangle thinner than its clearance is met as a line: across it no direction is its own, so
-  /// its plane is the one that faces the god-object. Which side of the triangle that is on, and
-  /// what crosses it, is told exactly.
-  std::vector<std::uint8_t> IsWire;
-  bool HasWires = false;
+  /// Which side of a thin triangle the god-object is on, and what crosses it, is told exactly.
+  enum class Width : std::uint8_t
+  {
+    Broad,
+    /// Thinner than its clearance: met as a line. Across it no direction is its own, so its plane
+    /// is the one that faces the god-object.
+    Wire,
+    /// Thinner than rounding, on the edge of a broad one that goes on from it: not met, as nothing
+    /// reaches it but along the other's plane.
+    Seam
+  };
+  std::vector<Width> Widths;
+  bool HasThin = false;
   std::vector<double> NormalX, NormalY, NormalZ, PlaneOffset;
   std::array<std::vector<double>, 3> Low, High; ///< its box
   std::vector<double> Error, Clearance;

@@ -39,7 +39,7 @@ bool WorkingSet::GatherBall(WorkBudget& budget)
     this->Radius = (fromOrigin - surfaceRadius) * (1.0 - 0x1p-40);
     this->RadiusToTry = surfaceRadius;
     this->Count = 0;
-    this->HasWires = false;
+    this->HasThin = false;
     this->FoundCount = 0;
     this->EmptyCentre = this->Position;
     this->EmptyRadius = this->Radius;
@@ -135,7 +135,7 @@ void WorkingSet::Fill(
   const TriangleList& found, const Vector& middle, double radius, double farthest)
 {
   this->Count = 0;
-  this->HasWires = false;
+  this->HasThin = false;
   this->IsTargetMeasured = false;
   this->FoundCount = found.Count;
   double nearest = HUGE_VAL;
@@ -171,7 +171,7 @@ void WorkingSet::Fill(
       const std::int32_t i = this->Count;
       this->Triangles[i] = found.Indices[start + k];
       this->Flipped[i] = 0;
-      this->IsWire[i] = 0;
+      this->Widths[i] = Width::Broad;
       for (int axis = 0; axis < 3; ++axis)
       {
         this->Low[axis][i] = batch.Low(k, axis);
@@ -199,6 +199,34 @@ void WorkingSet::Fill(
   this->MeasurePosition();
 }
 
+/// Whether a thin triangle's longest edge is one of a broad triangle's too, which goes on from it
+/// in the same orientation and is touched from the same sides, and no edge of it is open.
+bool WorkingSet::IsSeam(std::int32_t triangle, const Facet& facet, double clearance) const
+{
+  if (!(facet.SmallestHeight < GrowthOverSharedEdges * clearance))
+  {
+    return false;
+  }
+  const auto& neighbours = this->Touched->AdjacentTriangles()[triangle];
+  const std::int32_t other = neighbours[(facet.Anchor + 1) % 3];
+  if (*std::min_element(neighbours.begin(), neighbours.end()) < 0 ||
+    this->Touched->TouchesBack(triangle) != this->Touched->TouchesBack(other))
+  {
+    return false;
+  }
+  const auto& corners = this->Touched->Triangles()[triangle];
+  const std::int32_t from = corners[(facet.Anchor + 1) % 3];
+  const std::int32_t to = corners[(facet.Anchor + 2) % 3];
+  const auto& others = this->Touched->Triangles()[other];
+  const auto place = std::find(others.begin(), others.end(), to) - others.begin();
+  if (place == 3 || others[(place + 1) % 3] != from)
+  {
+    return false;
+  }
+  const auto [a, b, c] = this->CornersOf(other);
+  return Facet(a, b, c).SmallestHeight >= clearance;
+}
+
 /// The plane of a thin triangle. False where it has no area.
 bool WorkingSet::FillThin(std::int32_t i, double farthest)
 {
@@ -216,10 +244,12 @@ bool WorkingSet::FillThin(std::int32_t i, double farthest)
   this->PlaneOffset[i] = glm::dot(facet.Normal, from);
   this->Error[i] = facet.DistanceError(reach);
   this->Clearance[i] = facet.Clearance(this->MinimumClearance, reach);
-  this->IsWire[i] = facet.SmallestHeight < this->Clearance[i];
-  if (this->IsWire[i])
+  this->Widths[i] = Width::Broad;
+  if (facet.SmallestHeight < this->Clearance[i])
   {
-    this->HasWires = true;
+    this->Widths[i] =
+      this->IsSeam(this->Triangles[i], facet, this->Clearance[i]) ? Width::Seam : Width::Wire;
+    this->HasThin = true;
     this->Error[i] = HUGE_VAL; // that of the triangle's plane, which is not known here
   }
   return true;
