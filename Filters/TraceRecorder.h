@@ -34,7 +34,7 @@ struct TraceTick
   /// `surface` and `cell`: what the record's first constraint belongs to, -1 for none.
   TraceTick(const TickRecord& record, std::int32_t surface, std::int64_t cell);
 };
-static_assert(sizeof(TraceTick) <= 192, "vtkHapticScene documents 192 bytes a tick");
+static_assert(sizeof(TraceTick) <= 192, "vtkHapticTraceRecorder documents 192 bytes a tick");
 
 /// @brief Keeps the ticks of a trace and makes a polyline of them: the one place that names a
 /// trace's arrays. GUI thread.

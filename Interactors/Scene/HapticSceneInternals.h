@@ -1,16 +1,13 @@
 #ifndef Haptics_HapticSceneInternals_h
 #define Haptics_HapticSceneInternals_h
 
-#include "haptics/Filters/TraceRecorder.h"
 #include "haptics/Scene/BackgroundWorker.h"
 #include "haptics/Scene/HapticAssembly.h"
-#include "haptics/Scene/HapticGrip.h"
 #include "haptics/Scene/SceneEvents.h"
 #include "haptics/Scene/SurfaceSet.h"
 #include "haptics/Tick/TickRecord.h"
 #include "vtkHapticScene.h"
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -27,15 +24,9 @@ public:
   double BuildProgress = 1.0;
   std::uint64_t Published = 0; ///< generation of the last god-object
   double LastPull = 0.0;       ///< of changed surfaces, the servo's time [s]
-  haptics::TraceRecorder Recorder;
   haptics::SceneEvents Events;
-  std::array<double, 16> HomeWorkspace{}; ///< as it was set or fitted last
-  bool WorkspaceChosen = false;           ///< it was set or fitted at all
-  bool HasWarnedOfReach = false;          ///< of a surface that is there
+  bool HasWarnedOfReach = false; ///< of a surface that is there
   int DeviceState = 0;
-  bool Clutched = false;
-  bool ClutchHeld = false; ///< the device's button
-  haptics::HapticGrip Grip;
   vtkMTimeType LandmarksSeen = 0;
   std::vector<haptics::TickRecord> Drained; // kept for its memory
   std::optional<haptics::TickRecord> Latest;

@@ -2,15 +2,20 @@
 
 #include "haptics/Filters/ErrorText.h"
 #include "haptics/Scene/HapticSceneInternals.h"
-#include "vtkActor.h"
+#include "vtkBoundingBox.h"
+#include "vtkCallbackCommand.h"
+#include "vtkCamera.h"
 #include "vtkHapticDevice.h"
+#include "vtkHapticGrip.h"
 #include "vtkHapticLandmarks.h"
+#include "vtkHapticProbe.h"
 #include "vtkHapticServo.h"
-#include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
-#include "vtkPolyData.h"
 
 #include <algorithm>
+#include <initializer_list>
+#include <sstream>
+#include <string>
 #include <vector>
 
 vtkStandardNewMacro(vtkHapticScene);
@@ -18,21 +23,79 @@ vtkStandardNewMacro(vtkHapticScene);
 vtkHapticScene::vtkHapticScene()
   : Internal(std::make_unique<Internals>())
 {
-  this->ServoObserver =
-    this->Servo->AddObserver(vtkCommand::ErrorEvent, this, &vtkHapticScene::PassServoErrorOn);
+  this->Workspace->SetServo(this->Servo);
+  this->Grip->SetScene(this);
+  this->FollowParts();
 }
 
 vtkHapticScene::~vtkHapticScene()
 {
-  this->Servo->RemoveObserver(this->ServoObserver); // somebody else may hold it
+  this->Follower->SetClientData(nullptr); // somebody else may hold the parts
   this->Servo->Stop();
+  this->Grip->SetScene(nullptr);
 }
 
-void vtkHapticScene::PassServoErrorOn(vtkObject*, unsigned long, void* report)
+void vtkHapticScene::FollowParts()
+{
+  this->Follower->SetClientData(this);
+  this->Follower->SetCallback(
+    [](vtkObject* part, unsigned long event, void* scene, void* report)
+    {
+      if (scene)
+      {
+        static_cast<vtkHapticScene*>(scene)->NoticePart(
+          part, event, static_cast<const char*>(report));
+      }
+    });
+  this->Servo->AddObserver(vtkCommand::ErrorEvent, this->Follower);
+  for (vtkObject* part :
+    std::initializer_list<vtkObject*>{ this->Workspace, this->Grip, this->TraceRecorder })
+  {
+    for (const unsigned long event :
+      { vtkCommand::ErrorEvent, vtkCommand::WarningEvent, vtkCommand::ModifiedEvent })
+    {
+      part->AddObserver(event, this->Follower);
+    }
+  }
+  this->Workspace->AddObserver(vtkHapticWorkspace::ClutchEvent, this->Follower);
+  this->TraceRecorder->AddObserver(vtkCommand::StartEvent, this->Follower);
+  this->TraceRecorder->AddObserver(vtkCommand::EndEvent, this->Follower);
+}
+
+void vtkHapticScene::NoticePart(vtkObject* part, unsigned long event, const char* report)
 {
   std::string text;
-  haptics::AppendErrorText(text, static_cast<const char*>(report));
-  vtkErrorMacro(<< text);
+  switch (event)
+  {
+    case vtkCommand::ErrorEvent:
+      haptics::AppendErrorText(text, report);
+      if (part == this->Servo)
+      {
+        vtkErrorMacro(<< text); // what it means for a call of the scene, that call says
+      }
+      else
+      {
+        this->Fail(text);
+      }
+      break;
+    case vtkCommand::WarningEvent:
+      haptics::AppendErrorText(text, report);
+      vtkWarningMacro(<< text);
+      break;
+    case vtkHapticWorkspace::ClutchEvent:
+      if (this->Workspace->GetClutched())
+      {
+        this->Grip->LetGo();
+      }
+      this->PullSurfaces();
+      break;
+    case vtkCommand::StartEvent:
+    case vtkCommand::EndEvent:
+      this->PullState(); // what came before belongs to the trace before
+      break;
+    default:
+      this->Modified();
+  }
 }
 
 void vtkHapticScene::Fail(const std::string& message)
@@ -93,7 +156,7 @@ bool vtkHapticScene::Engage()
     return false;
   }
   this->PullState();
-  this->LetGo(); // who stepped has ended with that
+  this->Grip->LetGo(); // who stepped has ended with that
   this->PullSurfaces();
   this->WarnOfReach();
   if (!this->Servo->Start())
@@ -222,7 +285,7 @@ bool vtkHapticScene::PullState()
   }
   this->Internal->Events.Dispatch(this);
   // After the events, so that who is told of a grip finds the actor where it was.
-  const bool carried = this->CarryGripped();
+  const bool carried = this->Grip->Carry();
   return changed || carried;
 }
 
@@ -242,30 +305,15 @@ void vtkHapticScene::PullRecords()
   records.clear();
   this->Servo->DrainRecords(records);
 
-  const vtkIdType lost = this->Servo->GetNumberOfLostRecords();
-  if (this->Recording)
-  {
-    // The servo counts from 0 again at each start.
-    this->LostTicks += lost >= this->LostBefore ? lost - this->LostBefore : lost;
-  }
-  this->LostBefore = lost;
-
-  haptics::TraceRecorder& recorder = this->Internal->Recorder;
+  this->TraceRecorder->CountLost(this->Servo->GetNumberOfLostRecords());
   for (const haptics::TickRecord& record : records)
   {
-    this->Internal->Grip.Look(record, this->Internal->Surfaces);
-    if (this->Recording && recorder.Size() >= this->MaximumTraceTicks)
-    {
-      this->Recording = false;
-      vtkWarningMacro("The trace is full with " << recorder.Size()
-                                                << " ticks; recording has stopped. Raise "
-                                                   "MaximumTraceTicks to record longer.");
-    }
+    this->Grip->Look(record);
     this->Internal->Events.Take(record, this->Internal->Surfaces, this);
-    if (this->Recording)
+    if (this->TraceRecorder->GetRecording())
     {
       const haptics::SceneCell cell = this->Internal->Surfaces.Locate(record);
-      recorder.Add({ record, cell.Surface, cell.Cell });
+      this->TraceRecorder->Add(record, cell.Surface, cell.Cell);
     }
   }
   if (!records.empty())
@@ -322,34 +370,24 @@ bool vtkHapticScene::TakeState()
   return changed;
 }
 
-void vtkHapticScene::StartRecording()
-{
-  this->PullState(); // what came before is not recorded
-  this->Internal->Recorder.Clear();
-  this->LostTicks = 0;
-  this->Recording = true;
-}
-
-void vtkHapticScene::StopRecording()
-{
-  this->PullState();
-  this->Recording = false;
-}
-
-vtkPolyData* vtkHapticScene::GetTrace()
-{
-  this->Internal->Recorder.Write(this->Trace);
-  return this->Trace;
-}
-
-vtkIdType vtkHapticScene::GetNumberOfLostTicks()
-{
-  return this->LostTicks;
-}
-
 vtkHapticServo* vtkHapticScene::GetServo()
 {
   return this->Servo;
+}
+
+vtkHapticWorkspace* vtkHapticScene::GetWorkspace()
+{
+  return this->Workspace;
+}
+
+vtkHapticGrip* vtkHapticScene::GetGrip()
+{
+  return this->Grip;
+}
+
+vtkHapticTraceRecorder* vtkHapticScene::GetTraceRecorder()
+{
+  return this->TraceRecorder;
 }
 
 void vtkHapticScene::PrintSelf(ostream& os, vtkIndent indent)
@@ -374,13 +412,165 @@ void vtkHapticScene::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Overloaded: " << (this->Overloaded ? "yes" : "no") << "\n";
   os << indent << "TouchedSurface: " << this->TouchedSurface << "\n";
   os << indent << "TouchedCell: " << this->TouchedCell << "\n";
-  os << indent << "GrippedSurface: " << this->GetGrippedSurface() << "\n";
-  os << indent << "Recording: " << (this->Recording ? "yes" : "no") << "\n";
-  os << indent << "Recorded ticks: " << this->Internal->Recorder.Size() << " of "
-     << this->MaximumTraceTicks << "\n";
   os << indent << "ErrorMessage: " << this->ErrorMessage << "\n";
-  os << indent << "WorkspaceTransform:\n";
-  this->Workspace->PrintSelf(os, next);
-  os << indent << "Servo:\n";
-  this->Servo->PrintSelf(os, next);
+  const auto printPart = [&](const char* name, vtkObject* part)
+  {
+    os << indent << name << ":\n";
+    part->PrintSelf(os, next);
+  };
+  printPart("Workspace", this->Workspace);
+  printPart("Grip", this->Grip);
+  printPart("TraceRecorder", this->TraceRecorder);
+  printPart("Servo", this->Servo);
+}
+
+//--- the hand -------------------------------------------------------------------------------------
+
+vtkHapticLandmarks* vtkHapticScene::GetLandmarks()
+{
+  return this->Landmarks;
+}
+
+int vtkHapticScene::DropLandmark()
+{
+  this->ForgetMessage();
+  if (!this->Touching)
+  {
+    this->Fail("A landmark needs a contact, and nothing is touched. Touch a surface first.");
+    return -1;
+  }
+  return this->Landmarks->Drop(this->GetProbe());
+}
+
+void vtkHapticScene::ObeyButtons()
+{
+  for (const haptics::TickRecord& tick : this->Internal->Events.TakePresses(this->LandmarkButton))
+  {
+    if (tick.NumberOfConstraints > 0)
+    {
+      auto probe = vtkSmartPointer<vtkHapticProbe>::New();
+      this->Internal->Surfaces.Probe(tick, probe);
+      if (this->Landmarks->Drop(probe) >= 0)
+      {
+        this->Internal->Events.Add(
+          vtkHapticScene::LandmarkEvent, this->Landmarks->GetNumberOfLandmarks());
+      }
+    }
+  }
+  const unsigned int buttons = this->Internal->Latest ? this->Internal->Latest->Buttons : 0;
+  this->Workspace->ObeyButtons(buttons);
+  this->Grip->ObeyButtons(buttons);
+}
+
+bool vtkHapticScene::IsHandThere()
+{
+  const int state = this->Servo->GetState();
+  return (state == vtkHapticServo::Running || state == vtkHapticServo::Stepping) &&
+    this->Internal->Latest && !this->Workspace->GetClutched();
+}
+
+void vtkHapticScene::UpdateProbe(bool touching)
+{
+  this->Probe = vtkSmartPointer<vtkHapticProbe>::New();
+  if (touching)
+  {
+    this->Internal->Surfaces.Probe(*this->Internal->Latest, this->Probe);
+  }
+}
+
+vtkHapticProbe* vtkHapticScene::GetProbe()
+{
+  if (!this->Probe)
+  {
+    this->UpdateProbe(this->Touching);
+  }
+  return this->Probe;
+}
+
+const std::vector<haptics::TickRecord>& vtkHapticScene::GetNewTicks()
+{
+  return this->Internal->Drained;
+}
+
+std::vector<haptics::Vec3> vtkHapticScene::GetActiveCorners()
+{
+  return this->Touching ? this->Internal->Surfaces.ActiveCorners(*this->Internal->Latest)
+                        : std::vector<haptics::Vec3>();
+}
+
+//--- the workspace --------------------------------------------------------------------------------
+
+bool vtkHapticScene::FitWorkspace(vtkCamera* camera)
+{
+  this->ForgetMessage();
+  this->PullSurfaces();
+  vtkBoundingBox box;
+  for (const auto& surface : this->Internal->Surfaces.All())
+  {
+    surface->AddBounds(box);
+  }
+  if (!box.IsValid())
+  {
+    this->Fail(
+      "The workspace fits nothing: the scene has no surface that can be touched. Add one.");
+    return false;
+  }
+  double bounds[6];
+  box.GetBounds(bounds);
+  return this->Workspace->Fit(bounds, camera);
+}
+
+bool vtkHapticScene::EngageInView(vtkCamera* camera)
+{
+  if (!this->IsEngaged() && this->GetDevice() && !this->Workspace->GetChosen())
+  {
+    this->PullSurfaces();
+    const auto& surfaces = this->Internal->Surfaces.All();
+    const bool any = std::any_of(surfaces.begin(), surfaces.end(),
+      [](const auto& surface)
+      {
+        vtkBoundingBox box;
+        surface->AddBounds(box);
+        return box.IsValid() && box.GetMaxLength() > 0.0;
+      });
+    if (any && !this->FitWorkspace(camera))
+    {
+      return false;
+    }
+  }
+  return this->Engage();
+}
+
+/// Of a surface in another unit than the metre, where nobody has chosen a workspace: there a device
+/// touches next to nothing of it, with a force that has little to do with it. Once, until there is
+/// none.
+void vtkHapticScene::WarnOfReach()
+{
+  constexpr double largestRatio = 30.0;
+  const double* const bounds = this->GetDevice()->GetWorkspaceBounds();
+  const double reach =
+    std::max({ bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4] });
+  const double scale = this->Workspace->GetScale();
+  const auto& surfaces = this->Internal->Surfaces.All();
+  const auto found = std::find_if(surfaces.begin(), surfaces.end(),
+    [limit = largestRatio * reach * scale](const auto& surface)
+    {
+      const auto touched = surface->Touched();
+      return touched && 2.0 * touched->Radius() > limit;
+    });
+  const bool isTooLarge = !this->Workspace->GetChosen() && reach > 0.0 && found != surfaces.end();
+  if (isTooLarge && !this->Internal->HasWarnedOfReach)
+  {
+    std::ostringstream text;
+    text.precision(2);
+    text << (*found)->Title() << " has a size of " << 2.0 * (*found)->Touched()->Radius()
+         << " world units, and the device reaches over " << reach * scale
+         << " of them: no workspace was set, so that "
+         << (scale == 1.0 ? "a world unit is a metre" : "the workspace was scaled alone")
+         << " in the hand. Call FitWorkspace() or EngageInView() to lay the workspace over the "
+            "surfaces, or set the scale with SetWorkspaceTransform(), such as 1000 for a surface "
+            "in millimetres in its true size.";
+    vtkWarningMacro(<< text.str());
+  }
+  this->Internal->HasWarnedOfReach = isTooLarge;
 }

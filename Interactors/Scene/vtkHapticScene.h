@@ -8,27 +8,33 @@
  * moved. vtkInteractorStyleHaptic calls it from a timer. The scene does not draw: a vtkHapticView
  * shows it, and a program without one links no rendering library.
  *
+ * What else a hand does is the business of objects that the scene hands out: where its reach lies
+ * (GetWorkspace()), what it carries (GetGrip()), the trace of its ticks (GetTraceRecorder()), the
+ * points that it marks (GetLandmarks()), and the loop (GetServo()).
+ *
  * Frames: surfaces, HIP and god-object are in the world frame [world unit]; device positions,
  * forces and stiffness in the device frame [m, N, N/m]. The workspace transform maps device to
  * world. Forces are also told along the world's axes, in newtons, for drawing.
  *
  * Errors: a surface that turns out empty, without polygons or with coordinates that are not finite
  * is reported through vtkErrorMacro and GetErrorMessage(), once for each change; what was touched
- * before stays in force. What the servo reports is an error of the scene too, so that who observes
- * the scene hears of it.
+ * before stays in force. What the servo, the workspace, the grip and the trace recorder report is
+ * reported by the scene too, so that it is enough to observe the scene.
  *
- * Memory: a snapshot of each surface, and while recording 192 bytes a tick up to
- * MaximumTraceTicks.
+ * Memory: a snapshot of each surface, and that of the trace.
  *
  * Every method is for the GUI thread.
  *
- * @sa vtkHapticServo vtkHapticDevice vtkGodObjectFilter vtkHapticView vtkInteractorStyleHaptic
+ * @sa vtkHapticWorkspace vtkHapticGrip vtkHapticTraceRecorder vtkHapticLandmarks vtkHapticServo
+ * vtkHapticDevice vtkGodObjectFilter vtkHapticView vtkInteractorStyleHaptic
  */
 #ifndef Haptics_vtkHapticScene_h
 #define Haptics_vtkHapticScene_h
 
 #include "haptics/Math/Vec3.h"
 #include "vtkCommand.h"
+#include "vtkHapticTraceRecorder.h"
+#include "vtkHapticWorkspace.h"
 #include "vtkHapticsSceneModule.h"
 #include "vtkNew.h"
 #include "vtkObject.h"
@@ -46,9 +52,11 @@ struct TickRecord;
 class vtkActor;
 class vtkAlgorithmOutput;
 class vtkAssembly;
+class vtkCallbackCommand;
 class vtkCamera;
 class vtkGodObjectFilter;
 class vtkHapticDevice;
+class vtkHapticGrip;
 class vtkHapticLandmarks;
 class vtkHapticProbe;
 class vtkHapticProperties;
@@ -211,18 +219,6 @@ public:
 
   ///@{
   /**
-   * Device to world: rotation, uniform scale [world unit/m], translation. Default the identity: a
-   * world unit is a metre in the hand. A surface more than 30 times as large as the device then
-   * reaches, in millimetres for instance, is a warning, once, when the scene engages or steps.
-   * False and an error where the matrix is anything else (a mirror, a shear, not finite); the last
-   * one stays. The god-object starts anew at the HIP, so that no jump is felt.
-   */
-  bool SetWorkspaceTransform(vtkMatrix4x4* deviceToWorld);
-  vtkMatrix4x4* GetWorkspaceTransform();
-  ///@}
-
-  ///@{
-  /**
    * Where a ray first meets a surface that can be touched, on a side that can be touched, and the
    * normal of the triangle there, of unit length and against the ray; world frame, `direction` of
    * any length. False, and the rest as it was, where it meets none.
@@ -232,21 +228,24 @@ public:
     const double from[3], const double direction[3], double hit[3], double normal[3]);
   ///@}
 
+  ///@{
   /**
-   * Maps the device's workspace to the bounds of the surfaces that can be touched, as small as
-   * holds them. Camera-aligned: the device's x, y, z axes become the camera's right, up and
-   * towards the viewer; without a camera the world's axes. One that is built for the first time in
-   * the background counts already. False and an error where no surface can be touched or there is
-   * no device.
+   * Where the reach of the device lies in the world. Never null. While it was never set nor fitted,
+   * a surface more than 30 times as large as the device then reaches, in millimetres for instance,
+   * is a warning, once, when the scene engages or steps.
+   */
+  vtkHapticWorkspace* GetWorkspace();
+  /**
+   * Fits it to the bounds of the surfaces that can be touched, see vtkHapticWorkspace::Fit(). One
+   * that is built for the first time in the background counts already. False and an error where no
+   * surface can be touched or there is no device.
    */
   bool FitWorkspace(vtkCamera* camera = nullptr);
-  /** As above, for bounds (xmin, xmax, ymin, ymax, zmin, zmax) in the world frame. */
-  bool FitWorkspace(const double bounds[6], vtkCamera* camera = nullptr);
-  /**
-   * Puts the workspace back to where it was set or fitted last, and takes the clutch off: what
-   * scaling and clutching have moved since is forgotten.
-   */
-  void ResetWorkspace();
+  ///@}
+  /** What the hand carries. Never null. */
+  vtkHapticGrip* GetGrip();
+  /** Keeps the trace of the ticks, which come with Update() and Step(). Never null. */
+  vtkHapticTraceRecorder* GetTraceRecorder();
 
   ///@{
   /**
@@ -313,91 +312,10 @@ public:
   int DropLandmark();
 
   ///@{
-  /**
-   * The device's button that drops a landmark (default 0), the one that is the clutch while it is
-   * held (default 1), and the one that grips what is touched while it is held (default 2); -1 for
-   * none, at most 31.
-   */
+  /** The device's button that drops a landmark. Default 0; -1 for none, at most 31. */
   vtkSetClampMacro(LandmarkButton, int, -1, 31);
   vtkGetMacro(LandmarkButton, int);
-  vtkSetClampMacro(ClutchButton, int, -1, 31);
-  vtkGetMacro(ClutchButton, int);
-  vtkSetClampMacro(GripButton, int, -1, 31);
-  vtkGetMacro(GripButton, int);
   ///@}
-
-  ///@{
-  /**
-   * The clutch: while it is on nothing is touched, no force is asked for, and the hand in the
-   * picture stays, so that the device can be moved back into the middle of its reach; a surface
-   * that moves pushes it along. When it is let go the hand goes on from there. Default off.
-   */
-  void SetClutched(bool clutched);
-  bool GetClutched();
-  ///@}
-
-  ///@{
-  /**
-   * The grip: the hand carries a surface, that which is touched or one with the id given, touched
-   * or not, by the point where the god-object is. Its actor, or the part of an assembly, goes where
-   * the god-object goes at each Update() or Step(): the device has no more than three degrees of
-   * freedom, so nothing turns. All else is felt as ever, and holds hand and part back: a point
-   * collides, not the part. What is carried is not felt, and free of all else the hand feels
-   * nothing.
-   *
-   * Let go, it is felt again from where it is, with the hand on the side where it was. The scene
-   * lets go by itself where the surface is hidden or removed, the clutch is pressed, another is
-   * gripped or the servo stops. Gripping and letting go take effect at once.
-   *
-   * Of the actor its position is changed, in whatever frame its user matrix or its assembly puts
-   * it; to undo a move set the position that it had at GripEvent.
-   *
-   * False and an error where there is no such surface, or it has no actor, is hidden, or no hand is
-   * there: released, or clutched; of a button's grip a warning, once for each surface without an
-   * actor. LetGo() does nothing where nothing is gripped.
-   */
-  bool Grip();
-  bool GripSurface(int id);
-  void LetGo();
-  /** The id of the surface that the hand carries; -1 for none. */
-  int GetGrippedSurface();
-  ///@}
-
-  /**
-   * Magnifies what the device reaches about the god-object: with a factor of 2 a movement goes
-   * twice as far in the world. A contact stays, with its force. False and an error where it is not
-   * finite and > 0.
-   */
-  bool ScaleWorkspace(double factor);
-
-  ///@{
-  /**
-   * Records every tick, over several Engage() too, whose times each start at 0. StartRecording()
-   * forgets the last trace. When MaximumTraceTicks are held recording stops with a warning.
-   */
-  void StartRecording();
-  void StopRecording();
-  vtkGetMacro(Recording, bool);
-  ///@}
-
-  ///@{
-  /** Ticks that a trace holds at most. Default 600,000 (ten minutes at 1 kHz, 115 MB); >= 1. */
-  vtkSetClampMacro(MaximumTraceTicks, vtkIdType, 1, VTK_ID_MAX);
-  vtkGetMacro(MaximumTraceTicks, vtkIdType);
-  ///@}
-
-  /**
-   * The trace so far: a polyline of the god-object, one point a tick, world frame, with the point
-   * arrays Time [s], HapticInterfacePoint [world unit], Force [N, world axes], ActiveConstraints,
-   * Surface (id, -1 in free space), OriginalCellId (-1 in free space), Penetration [world unit],
-   * Stiffness (in effect [N/m]), Energy (what the hand has put in since the servo's start and not
-   * got out [J]), EnergyTank [J]: the same arrays as those of a vtkGodObjectTrace.
-   * Made anew at each call; empty where nothing was recorded. Ticks that came faster than Update()
-   * drained them are missing from it: see GetNumberOfLostTicks().
-   */
-  vtkPolyData* GetTrace();
-  /** Ticks since StartRecording() that the trace lacks. */
-  vtkIdType GetNumberOfLostTicks();
 
   /** The ticks that the last look at the servo has taken in, oldest first. C++ only. */
   const std::vector<haptics::TickRecord>& GetNewTicks();
@@ -409,11 +327,31 @@ public:
   /** The servo: rate, statistics, priority. Its device and surfaces are this scene's business. */
   vtkHapticServo* GetServo();
   /**
-   * What went wrong last, for people; empty where nothing has. A call that can fail (Engage(),
-   * Step(), FitWorkspace(), Grip() and so on) begins with none, so that it is empty after one that
-   * succeeds; but what was wrong with a surface stays until something else is.
+   * What went wrong last; empty where nothing has. A call that can fail (Engage(), Step(),
+   * FitWorkspace() and so on) begins with none, so that it is empty after one that succeeds; but
+   * what was wrong with a surface stays until something else is.
    */
   const char* GetErrorMessage() { return this->ErrorMessage.c_str(); }
+
+  ///@{
+  /** Conveniences: the methods of GetWorkspace(). */
+  bool SetWorkspaceTransform(vtkMatrix4x4* m) { return this->Ask()->SetTransform(m); }
+  vtkMatrix4x4* GetWorkspaceTransform() { return this->Workspace->GetTransform(); }
+  bool FitWorkspace(const double bounds[6], vtkCamera* camera = nullptr)
+  {
+    return this->Ask()->Fit(bounds, camera);
+  }
+  bool ScaleWorkspace(double factor) { return this->Ask()->Scale(factor); }
+  void ResetWorkspace() { this->Workspace->Reset(); }
+  void SetClutched(bool clutched) { this->Workspace->SetClutched(clutched); }
+  bool GetClutched() { return this->Workspace->GetClutched(); }
+  ///@}
+  ///@{
+  /** Conveniences: the methods of GetTraceRecorder(). */
+  void StartRecording() { this->TraceRecorder->Start(); }
+  void StopRecording() { this->TraceRecorder->Stop(); }
+  vtkPolyData* GetTrace() { return this->TraceRecorder->GetTrace(); }
+  ///@}
 
 protected:
   vtkHapticScene();
@@ -423,16 +361,22 @@ private:
   vtkHapticScene(const vtkHapticScene&) = delete;
   void operator=(const vtkHapticScene&) = delete;
 
+  friend class vtkHapticGrip;
   class Internals;
   std::unique_ptr<Internals> Internal;
 
   void Fail(const std::string& message);
-  void PassServoErrorOn(vtkObject* servo, unsigned long event, void* report);
+  void FollowParts();
+  void NoticePart(vtkObject* part, unsigned long event, const char* report);
   void ForgetMessage(); // unless it is of a surface
+  vtkHapticWorkspace* Ask()
+  {
+    this->ForgetMessage();
+    return this->Workspace;
+  }
   bool OpenDevice(vtkHapticDevice* device);
   bool PullSurfaces();
   void FinishBuilds();
-  bool MoveWorkspace(vtkMatrix4x4* deviceToWorld);
   void TellOfBuilds();
   void WarnOfReach();
   bool PullState();
@@ -440,22 +384,19 @@ private:
   bool TakeState();
   void NoticeDevice();
   void ObeyButtons();
-  void ObeyGripButton();
   bool IsHandThere();
-  bool CarryGripped();
   void UpdateProbe(bool touching);
 
   vtkNew<vtkHapticServo> Servo;
-  vtkNew<vtkPolyData> Trace;
-  vtkNew<vtkMatrix4x4> Workspace;
+  vtkNew<vtkHapticWorkspace> Workspace;
+  vtkNew<vtkHapticGrip> Grip;
+  vtkNew<vtkHapticTraceRecorder> TraceRecorder;
   vtkNew<vtkHapticLandmarks> Landmarks;
+  vtkNew<vtkCallbackCommand> Follower;   // of the parts
   vtkSmartPointer<vtkHapticProbe> Probe; // null until asked for
   int LandmarkButton = 0;
-  int ClutchButton = 1;
-  int GripButton = 2;
   std::string ErrorMessage;
   bool IsMessageOfSurface = false;
-  unsigned long ServoObserver = 0;
 
   double HapticInterfacePoint[3] = { 0.0, 0.0, 0.0 };
   double GodObject[3] = { 0.0, 0.0, 0.0 };
@@ -467,10 +408,6 @@ private:
   int TouchedSurface = -1;
   vtkIdType TouchedCell = -1;
   bool Engaged = false;
-  bool Recording = false;
-  vtkIdType MaximumTraceTicks = 600000;
-  vtkIdType LostTicks = 0;
-  vtkIdType LostBefore = 0;
 };
 
 #endif

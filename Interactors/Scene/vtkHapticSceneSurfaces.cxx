@@ -6,13 +6,12 @@
 #include "vtkAlgorithmOutput.h"
 #include "vtkAssembly.h"
 #include "vtkGodObjectFilter.h"
+#include "vtkHapticGrip.h"
 #include "vtkHapticServo.h"
-#include "vtkMatrix4x4.h"
 #include "vtkPolyData.h"
 #include "vtkTrivialProducer.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 int vtkHapticScene::AddSurface(vtkActor* actor)
@@ -276,7 +275,7 @@ bool vtkHapticScene::PullSurfaces()
   settings.IsTaken = this->Servo->GetLatestRecord().Generation == this->Internal->Published;
   settings.Now = this->Servo->GetTime();
   settings.Interval = settings.Now - std::exchange(this->Internal->LastPull, settings.Now);
-  settings.Scale = std::cbrt(this->Workspace->Determinant());
+  settings.Scale = this->Workspace->GetScale();
   std::vector<std::string> errors;
   haptics::SurfaceSet& surfaces = this->Internal->Surfaces;
   for (haptics::HapticAssembly& assembly : this->Internal->Assemblies)
@@ -284,18 +283,13 @@ bool vtkHapticScene::PullSurfaces()
     assembly.Pull(surfaces);
   }
   const bool changed = surfaces.Pull(settings, errors);
-  haptics::HapticGrip& grip = this->Internal->Grip;
-  const int lost = grip.IsLost(surfaces) ? grip.Surface() : haptics::HapticGrip::Nothing;
-  if (lost != haptics::HapticGrip::Nothing)
-  {
-    grip.LetGo(surfaces);
-  }
+  const int lost = this->Grip->LetGoOfLost();
   if (changed)
   {
     const std::uint64_t generation =
       this->Servo->PublishGodObject(std::make_unique<haptics::GodObject>(surfaces.Touched()));
     this->Internal->Published = generation;
-    grip.Published(generation);
+    this->Grip->Published(generation);
     if (!this->Servo->IsRunning())
     {
       // All records are drained: no tick can tell of older ones than the last.
@@ -310,7 +304,7 @@ bool vtkHapticScene::PullSurfaces()
     this->IsMessageOfSurface = true;
     this->InvokeEvent(vtkHapticScene::SurfaceErrorEvent);
   }
-  if (lost != haptics::HapticGrip::Nothing)
+  if (lost >= 0)
   {
     this->Internal->Events.Add(vtkHapticScene::LetGoEvent, lost);
     this->Internal->Events.Dispatch(this); // after a grip that waits to be told

@@ -7,6 +7,7 @@
 #include "vtkCommand.h"
 #include "vtkGodObjectActor.h"
 #include "vtkHapticDevice.h"
+#include "vtkHapticGrip.h"
 #include "vtkHapticLandmarks.h"
 #include "vtkHapticOverlay.h"
 #include "vtkHapticScene.h"
@@ -479,7 +480,7 @@ std::string vtkInteractorStyleHaptic::DescribeState()
   {
     return "clutched: c takes hold again";
   }
-  if (this->Scene->GetGrippedSurface() >= 0)
+  if (this->Scene->GetGrip()->GetSurface() >= 0)
   {
     return "carrying: x lets go";
   }
@@ -523,15 +524,15 @@ void vtkInteractorStyleHaptic::ToggleTrail()
 
 void vtkInteractorStyleHaptic::ToggleGrip()
 {
-  if (this->Scene->GetGrippedSurface() >= 0)
+  if (this->Scene->GetGrip()->GetSurface() >= 0)
   {
-    this->Scene->LetGo();
+    this->Scene->GetGrip()->LetGo();
   }
   else if (!this->Scene->GetTouching())
   {
     this->Refuse("What is touched is gripped: touch a surface, then press x.");
   }
-  else if (!this->Scene->Grip())
+  else if (!this->Scene->GetGrip()->Take())
   {
     this->Refuse(this->Scene->GetErrorMessage());
   }

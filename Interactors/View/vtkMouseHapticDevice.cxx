@@ -5,6 +5,7 @@
 #include "vtkCallbackCommand.h"
 #include "vtkCamera.h"
 #include "vtkCommand.h"
+#include "vtkHapticGrip.h"
 #include "vtkHapticScene.h"
 #include "vtkHapticServo.h"
 #include "vtkInteractorStyle.h"
@@ -538,7 +539,7 @@ double vtkMouseHapticDevice::PressingDepth()
 
 bool vtkMouseHapticDevice::IsCarrying()
 {
-  return this->Scene && this->Scene->GetGrippedSurface() >= 0;
+  return this->Scene && this->Scene->GetGrip()->GetSurface() >= 0;
 }
 
 /// Takes in what is under the cursor. False, and all as it was, where that is nothing.

@@ -20,7 +20,7 @@
  * - where no surface is under the cursor; what was pressed is let go, and pressed again when the
  *   cursor comes back. GetWaiting() and GetStatusMessage() report it.
  *
- * While the hand carries something (vtkHapticScene::Grip()) it moves in the plane of the view that
+ * While the hand carries something (vtkHapticGrip) it moves in the plane of the view that
  * it lies in, is drawn to no surface, and goes as deep as the wheel says.
  *
  * A space bar that is held repeats itself: a release that a press follows at once is none. The

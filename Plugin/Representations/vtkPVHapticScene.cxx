@@ -2,6 +2,7 @@
 
 #include "PVHapticSceneInternals.h"
 #include "vtkCommand.h"
+#include "vtkHapticGrip.h"
 #include "vtkHapticOverlay.h"
 #include "vtkHapticServo.h"
 #include "vtkMapper.h"
@@ -46,7 +47,7 @@ vtkPVHapticScene::vtkPVHapticScene()
   this->Internal->Scene->GetServo()->SetMaximumForce(this->Internal->MaximumForce);
   this->Internal->Scene->BackgroundBuildingOn();
   // What is touched is an actor in no renderer: carried, it would leave the picture and the server.
-  this->Internal->Scene->SetGripButton(-1);
+  this->Internal->Scene->GetGrip()->SetButton(-1);
   this->Internal->Scene->AddObserver(
     vtkHapticScene::SurfaceErrorEvent, this, &vtkPVHapticScene::OnSurfaceError);
 }

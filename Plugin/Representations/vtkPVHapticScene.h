@@ -119,7 +119,7 @@ public:
 
   ///@{
   /**
-   * Device to world, row by row, as vtkHapticScene::SetWorkspaceTransform(). All zeros, the
+   * Device to world, row by row, as vtkHapticWorkspace::SetTransform(). All zeros, the
    * default, until it was set or fitted; set to zeros it is fitted anew when it is needed.
    */
   void SetWorkspaceTransform(const double matrix[16]);
@@ -130,10 +130,10 @@ public:
    * view's camera. False and an error where there is nothing to fit.
    */
   bool Fit();
-  /** Magnifies what the device reaches, as vtkHapticScene::ScaleWorkspace(). */
+  /** Magnifies what the device reaches, as vtkHapticWorkspace::Scale(). */
   void ScaleWorkspace(double factor);
   ///@{
-  /** The clutch, as vtkHapticScene::SetClutched(). */
+  /** The clutch, as vtkHapticWorkspace::SetClutched(). */
   void SetClutched(bool clutched);
   bool GetClutched();
   ///@}

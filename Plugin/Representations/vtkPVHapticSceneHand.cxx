@@ -146,7 +146,7 @@ void vtkPVHapticScene::SetRecordTrace(bool record)
 
 bool vtkPVHapticScene::GetRecordTrace()
 {
-  return this->Internal->Scene->GetRecording();
+  return this->Internal->Scene->GetTraceRecorder()->GetRecording();
 }
 
 void vtkPVHapticScene::DropLandmark()

@@ -113,9 +113,19 @@ class Errors(unittest.TestCase):
         with self.raises("vtkHapticScene", "Surface 1"):
             scene.Update()
 
+    @NEEDS_OVERRIDE
+    def test_a_part_of_a_scene_raises_under_its_own_name(self):
+        device, scene = make()
+        with self.raises("vtkHapticWorkspace", "Give a finite factor > 0"):
+            scene.GetWorkspace().Scale(0.0)
+        with self.raises("vtkHapticGrip", "There is no surface 7"):
+            scene.GetGrip().TakeSurface(7)
+        with self.raises("vtkHapticScene", "Give a finite factor > 0"):
+            scene.ScaleWorkspace(0.0)
+
     def test_a_full_trace(self):
         device, scene = make()
-        scene.SetMaximumTraceTicks(5)
+        scene.GetTraceRecorder().SetMaximumTicks(5)
         scene.StartRecording()
         with warnings.catch_warnings():
             warnings.simplefilter("error", HapticsWarning)

@@ -186,12 +186,12 @@ class RandomScene:
                     scene.ResetWorkspace,
                     lambda: scene.SetBackgroundBuilding(dice.random() < 0.5),
                     scene.CancelBuild,
-                    lambda: scene.GripSurface(dice.choice(self.parts).id),
-                    scene.Grip,
-                    scene.LetGo,
-                    scene.Grip,
-                    lambda: scene.GripSurface(dice.choice(self.parts).id),
-                    scene.LetGo,
+                    lambda: scene.GetGrip().TakeSurface(dice.choice(self.parts).id),
+                    scene.GetGrip().Take,
+                    scene.GetGrip().LetGo,
+                    scene.GetGrip().Take,
+                    lambda: scene.GetGrip().TakeSurface(dice.choice(self.parts).id),
+                    scene.GetGrip().LetGo,
                     scene.GetServo().GetSafety().PassivityControlOn,
                 )
             )()

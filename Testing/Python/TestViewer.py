@@ -230,7 +230,7 @@ def test_what_is_gripped_is_carried_in_the_picture(folder):
     assert scene.GetSurfaceName(scene.GetTouchedSurface()) == os.path.basename(path)
     drawn = shown.renderer.GetActors().GetLastActor()
     before, hand = np.array(drawn.GetCenter()), np.array(scene.GetGodObject())
-    assert scene.Grip(), scene.GetErrorMessage()
+    assert scene.GetGrip().Take(), scene.GetErrorMessage()
     device.MoveTo(140, 100)
     for _ in range(10):
         scene.Step(30)

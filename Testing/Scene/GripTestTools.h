@@ -5,6 +5,7 @@
 
 #include "vtkActor.h"
 #include "vtkCubeSource.h"
+#include "vtkHapticGrip.h"
 #include "vtkMath.h"
 #include "vtkPoints.h"
 #include "vtkPolyDataMapper.h"
@@ -76,7 +77,7 @@ struct Workbench : LedHand
   bool PressAndGrip()
   {
     this->Go(0.003, 0.005, 0.018);
-    return this->Scene->Grip();
+    return this->Scene->GetGrip()->Take();
   }
   Point GodObject()
   {

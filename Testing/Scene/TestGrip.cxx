@@ -82,8 +82,8 @@ TEST(Grip, TheActorMovesByWhatTheGodObjectMoves)
   bench.Go(0.003, 0.005, 0.018);
   const Point held = bench.GodObject();
   ASSERT_NEAR(held[2], 0.02, Clearance);
-  ASSERT_TRUE(bench.Scene->Grip());
-  EXPECT_EQ(bench.Scene->GetGrippedSurface(), bench.PartId);
+  ASSERT_TRUE(bench.Scene->GetGrip()->Take());
+  EXPECT_EQ(bench.Scene->GetGrip()->GetSurface(), bench.PartId);
   EXPECT_EQ(Length(bench.Place(bench.Part)), 0.0) << "not before the servo has let the hand in";
   for (int i = 1; i <= 50; ++i)
   {
@@ -142,7 +142,7 @@ TEST(Grip, TheActorMovesSoWhateverItsMatrixIsMadeOf)
     const Point start = bench.Place(bench.Part);
     const int id = bench.Scene->GetTouchedSurface();
     EXPECT_EQ(bench.Scene->GetSurfaceActor(id), bench.Part.Get());
-    ASSERT_TRUE(bench.Scene->Grip()) << bench.Scene->GetErrorMessage();
+    ASSERT_TRUE(bench.Scene->GetGrip()->Take()) << bench.Scene->GetErrorMessage();
     bench.Go(middle[0] + 0.02, middle[1] - 0.03, middle[2] + 0.05, 16);
     EXPECT_GT(Length(bench.Place(bench.Part) - start), 0.01);
     bench.Scene->Update();
@@ -152,7 +152,7 @@ TEST(Grip, TheActorMovesSoWhateverItsMatrixIsMadeOf)
     // before: it lifts off freely, and finds the part as far away as it was.
     robot->AddPosition(0.0, 0.05, 0.02);
     arm->AddPosition(0.03, 0.0, 0.0);
-    bench.Scene->LetGo();
+    bench.Scene->GetGrip()->LetGo();
     bench.Scene->Step(16);
     EXPECT_LT(bench.Force(), 1e-6) << i;
     bench.Go(middle[0] + 0.02, middle[1] - 0.03, middle[2] + 0.05 + 0.1, 16);
@@ -183,7 +183,7 @@ TEST(Grip, AWallHoldsHandAndPartBack)
   EXPECT_NEAR(bench.Place(bench.Part)[2], -0.002, Clearance) << "it has come to the hand";
 
   // Let go there: both hold it now, and nothing is felt of that but the wall.
-  bench.Scene->LetGo();
+  bench.Scene->GetGrip()->LetGo();
   bench.Scene->Step(50);
   EXPECT_NEAR(bench.Force(), 500.0 * 0.003, 1e-3);
   EXPECT_FALSE(bench.IsInside());
@@ -207,8 +207,8 @@ TEST(Grip, LettingGoOfAMovingPartIsSoftAndNeverLeaks)
       bench.Device->SetPosition(0.003, 0.005, z);
       if (tick == 110)
       {
-        bench.Scene->LetGo();
-        EXPECT_EQ(bench.Scene->GetGrippedSurface(), -1);
+        bench.Scene->GetGrip()->LetGo();
+        EXPECT_EQ(bench.Scene->GetGrip()->GetSurface(), -1);
       }
       bench.Scene->Step(1); // its first tick is the first one in the new place
       if (tick >= 110)
@@ -226,20 +226,20 @@ TEST(Grip, AButtonGripsWhileItIsHeld)
 {
   Workbench bench;
   Diary diary(bench.Scene);
-  EXPECT_EQ(bench.Scene->GetGripButton(), 2);
+  EXPECT_EQ(bench.Scene->GetGrip()->GetButton(), 2);
   bench.Device->SetButtons(GripButton);
   bench.Go(0.003, 0.005, 0.025);
   bench.Go(0.003, 0.005, 0.018);
-  EXPECT_EQ(bench.Scene->GetGrippedSurface(), -1) << "pressed in the air it grips nothing";
+  EXPECT_EQ(bench.Scene->GetGrip()->GetSurface(), -1) << "pressed in the air it grips nothing";
   bench.Device->SetButtons(0);
   bench.Scene->Step(1);
   bench.Device->SetButtons(GripButton);
   bench.Scene->Step(2);
-  EXPECT_EQ(bench.Scene->GetGrippedSurface(), bench.PartId);
+  EXPECT_EQ(bench.Scene->GetGrip()->GetSurface(), bench.PartId);
   bench.Go(0.003, 0.005, 0.048, 2);
   bench.Device->SetButtons(0);
   bench.Scene->Step(2);
-  EXPECT_EQ(bench.Scene->GetGrippedSurface(), -1);
+  EXPECT_EQ(bench.Scene->GetGrip()->GetSurface(), -1);
   EXPECT_NEAR(bench.Place(bench.Part)[2], 0.028, Clearance);
   bench.Go(0.003, 0.005, 0.047);
   EXPECT_EQ(bench.Scene->GetTouchedSurface(), bench.PartId) << "felt again";
@@ -248,16 +248,16 @@ TEST(Grip, AButtonGripsWhileItIsHeld)
 
   for (const int button : { -1, 3 })
   {
-    bench.Scene->SetGripButton(button);
+    bench.Scene->GetGrip()->SetButton(button);
     bench.Device->SetButtons(GripButton);
     bench.Scene->Step(1);
-    EXPECT_EQ(bench.Scene->GetGrippedSurface(), -1);
+    EXPECT_EQ(bench.Scene->GetGrip()->GetSurface(), -1);
     bench.Device->SetButtons(0);
     bench.Scene->Step(1);
   }
   bench.Device->SetButtons(1u << 3);
   bench.Scene->Step(1);
-  EXPECT_EQ(bench.Scene->GetGrippedSurface(), bench.PartId);
+  EXPECT_EQ(bench.Scene->GetGrip()->GetSurface(), bench.PartId);
 }
 
 TEST(Grip, WhatIsGrippedIsNotInTheWay)
@@ -269,7 +269,7 @@ TEST(Grip, WhatIsGrippedIsNotInTheWay)
   const double down[3] = { 0.0, 0.0, -1.0 };
   double hit[3];
   EXPECT_FALSE(bench.Scene->IntersectRay(from, down, hit)) << "the mouse's hand would press on it";
-  bench.Scene->LetGo();
+  bench.Scene->GetGrip()->LetGo();
   EXPECT_TRUE(bench.Scene->IntersectRay(from, down, hit));
   EXPECT_TRUE(bench.Scene->IsSurfaceTouchable(bench.PartId));
 }
@@ -278,12 +278,12 @@ TEST(Grip, OneThatIsNotTouchedIsCarriedToo)
 {
   Workbench bench;
   bench.Go(0.003, 0.005, 0.05);
-  ASSERT_TRUE(bench.Scene->GripSurface(bench.PartId));
-  EXPECT_TRUE(bench.Scene->GripSurface(bench.PartId)) << "it is";
+  ASSERT_TRUE(bench.Scene->GetGrip()->TakeSurface(bench.PartId));
+  EXPECT_TRUE(bench.Scene->GetGrip()->TakeSurface(bench.PartId)) << "it is";
   bench.Go(0.003, 0.005, 0.0, 2);
   bench.Scene->Update();
   EXPECT_NEAR(bench.Place(bench.Part)[2], -0.05, 1e-9);
-  bench.Scene->LetGo();
+  bench.Scene->GetGrip()->LetGo();
   bench.Go(0.003, 0.005, -0.04, 2);
   EXPECT_NEAR(bench.GodObject()[2], -0.03, Clearance)
     << "its top is 30 mm below where the hand was";
@@ -299,8 +299,8 @@ TEST(Grip, AnotherOneIsTakenInItsStead)
   Diary diary(bench.Scene);
   ASSERT_TRUE(bench.PressAndGrip());
   bench.Go(0.003, 0.005, 0.03, 2);
-  ASSERT_TRUE(bench.Scene->GripSurface(id));
-  EXPECT_EQ(bench.Scene->GetGrippedSurface(), id);
+  ASSERT_TRUE(bench.Scene->GetGrip()->TakeSurface(id));
+  EXPECT_EQ(bench.Scene->GetGrip()->GetSurface(), id);
   const double before = bench.Place(bench.Part)[2];
   bench.Go(0.003, 0.005, 0.04, 2);
   bench.Scene->Update();
@@ -321,10 +321,10 @@ TEST(Grip, APartThatIsOnItsWayIsHeldWhereTheHandHasIt)
   bench.Part->AddPosition(0.0, 0.0, 0.016);
   bench.Scene->Step(5); // of 33 on its way
   EXPECT_LT(bench.GodObject()[2], 0.025);
-  ASSERT_TRUE(bench.Scene->Grip());
+  ASSERT_TRUE(bench.Scene->GetGrip()->Take());
   bench.Go(0.003, 0.005, 0.05, 16);
   EXPECT_NEAR(bench.Place(bench.Part)[2], 0.03, Clearance) << "its top is in the hand";
-  bench.Scene->LetGo();
+  bench.Scene->GetGrip()->LetGo();
   bench.Scene->Step(50);
   EXPECT_LT(bench.Force(), 1e-6);
   EXPECT_FALSE(bench.IsInside());
@@ -339,7 +339,7 @@ TEST(Grip, ThePointInTheHandStaysThere)
   bench.Part->RotateZ(30.0);
   bench.Part->AddPosition(0.01, 0.0, 0.2);
   bench.Scene->Update();
-  bench.Scene->LetGo();
+  bench.Scene->GetGrip()->LetGo();
   bench.Go(0.003, 0.005, 0.017);
   EXPECT_NEAR(bench.GodObject()[2], 0.018, Clearance);
   EXPECT_NEAR(bench.Force(), 500.0 * 0.001, 1e-3);
@@ -350,7 +350,7 @@ TEST(Grip, SetBackWhereItCameFromItPushesNoHand)
   Workbench bench;
   ASSERT_TRUE(bench.PressAndGrip());
   bench.Go(0.003, 0.005, 0.218, 2);
-  bench.Scene->LetGo();
+  bench.Scene->GetGrip()->LetGo();
   bench.Part->SetPosition(0.0, 0.0, 0.0); // undone
   bench.Scene->Step(100);
   EXPECT_FALSE(bench.Scene->GetTouching());
@@ -358,9 +358,9 @@ TEST(Grip, SetBackWhereItCameFromItPushesNoHand)
   EXPECT_NEAR(bench.GodObject()[2], 0.02, Clearance);
 
   // And so far that the hand, which is on it, cannot be taken along: as any actor moved so far.
-  ASSERT_TRUE(bench.Scene->Grip());
+  ASSERT_TRUE(bench.Scene->GetGrip()->Take());
   bench.Go(0.003, 0.005, -1.98, 2);
-  bench.Scene->LetGo();
+  bench.Scene->GetGrip()->LetGo();
   EventCounter errors(bench.Scene, vtkCommand::ErrorEvent);
   bench.Part->SetPosition(0.0, 0.0, 0.0);
   bench.Scene->Step(1);
@@ -389,7 +389,7 @@ TEST(Grip, IsToldBeforeTheActorMovesAndItsContactStaysToBeProbed)
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
     bench.Scene->Update();
   }
-  ASSERT_TRUE(bench.Scene->Grip()) << bench.Scene->GetErrorMessage();
+  ASSERT_TRUE(bench.Scene->GetGrip()->Take()) << bench.Scene->GetErrorMessage();
   EXPECT_TRUE(bench.Scene->GetProbe()->GetTouching());
   bench.Device->SetPosition(0.013, 0.005, 0.018);
   bench.AwaitTicks(30);
@@ -406,7 +406,7 @@ TEST(Grip, IsRefusedOnAnActorThatWasHiddenMeanwhile)
   bench.Part->VisibilityOff();
   {
     EventCounter errors(bench.Scene, vtkCommand::ErrorEvent);
-    EXPECT_FALSE(bench.Scene->GripSurface(bench.PartId));
+    EXPECT_FALSE(bench.Scene->GetGrip()->TakeSurface(bench.PartId));
     EXPECT_EQ(errors.Count, 1);
   }
   bench.Scene->Step(1);
@@ -422,7 +422,7 @@ TEST(Grip, EndsWithTheStepping)
   bench.Part->GetPosition(before.data());
   bench.Device->SetPosition(0.05, 0.005, 0.03);
   ASSERT_TRUE(bench.EngagePatiently());
-  EXPECT_EQ(bench.Scene->GetGrippedSurface(), -1);
+  EXPECT_EQ(bench.Scene->GetGrip()->GetSurface(), -1);
   bench.AwaitTicks(20);
   bench.Scene->Update();
   Point after;
@@ -449,11 +449,11 @@ TEST(Grip, FollowsInRealTime)
   bench.Device->SetPosition(0.003, 0.005, 0.018);
   ASSERT_TRUE(waitUntil([&] { return bench.Scene->GetTouching(); }));
   bench.Device->SetButtons(GripButton);
-  ASSERT_TRUE(waitUntil([&] { return bench.Scene->GetGrippedSurface() == bench.PartId; }));
+  ASSERT_TRUE(waitUntil([&] { return bench.Scene->GetGrip()->GetSurface() == bench.PartId; }));
   bench.Device->SetPosition(0.003, 0.005, 0.048);
   EXPECT_TRUE(waitUntil([&] { return std::abs(bench.Place(bench.Part)[2] - 0.028) < 1e-6; }));
   bench.Device->SetButtons(0);
-  ASSERT_TRUE(waitUntil([&] { return bench.Scene->GetGrippedSurface() == -1; }));
+  ASSERT_TRUE(waitUntil([&] { return bench.Scene->GetGrip()->GetSurface() == -1; }));
   bench.Device->SetPosition(0.003, 0.005, 0.045);
   EXPECT_TRUE(waitUntil([&] { return bench.Scene->GetTouching(); }));
   EXPECT_NEAR(bench.GodObject()[2], 0.048, 1e-6);

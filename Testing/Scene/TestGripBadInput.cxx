@@ -21,9 +21,9 @@ namespace
 std::string Refusal(vtkHapticScene* scene, int id)
 {
   EventCounter errors(scene, vtkCommand::ErrorEvent);
-  EXPECT_FALSE(scene->GripSurface(id));
+  EXPECT_FALSE(scene->GetGrip()->TakeSurface(id));
   EXPECT_EQ(errors.Count, 1);
-  EXPECT_EQ(scene->GetGrippedSurface(), -1);
+  EXPECT_EQ(scene->GetGrip()->GetSurface(), -1);
   return scene->GetErrorMessage();
 }
 
@@ -48,7 +48,7 @@ TEST(GripBadInput, WhatCannotBeGrippedIsRefusedWithTheReason)
   EXPECT_TRUE(Has(Refusal(bench.Scene, bench.WallId), "actor"));
   {
     EventCounter errors(bench.Scene, vtkCommand::ErrorEvent);
-    EXPECT_FALSE(bench.Scene->Grip());
+    EXPECT_FALSE(bench.Scene->GetGrip()->Take());
     EXPECT_EQ(errors.Count, 1);
     EXPECT_TRUE(Has(bench.Scene->GetErrorMessage(), "nothing is touched"));
   }
@@ -62,7 +62,7 @@ TEST(GripBadInput, WhatCannotBeGrippedIsRefusedWithTheReason)
   bench.Scene->SetClutched(false);
   bench.Scene->Release();
   EXPECT_TRUE(Has(Refusal(bench.Scene, bench.PartId), "no hand"));
-  bench.Scene->LetGo(); // does nothing
+  bench.Scene->GetGrip()->LetGo(); // does nothing
 }
 
 TEST(GripBadInput, GeometryIsRefusedToTheButtonOnce)
@@ -116,7 +116,7 @@ TEST(GripBadInput, IsLetGoOfWhenSurfaceOrHandGo)
       bench.Scene->GetServo()->Step(2); // the scene would open the device again
     }
     bench.Scene->Update();
-    EXPECT_EQ(bench.Scene->GetGrippedSurface(), -1) << name;
+    EXPECT_EQ(bench.Scene->GetGrip()->GetSurface(), -1) << name;
     EXPECT_EQ(letGo.Count, 1) << name;
     EXPECT_EQ(bench.Force(), 0.0) << name;
     const Point place = bench.Place(bench.Part);
@@ -148,13 +148,13 @@ TEST(GripBadInput, APartThatItsAssemblyDropsIsLetGoOf)
   hand.Scene->AddSurface(whole);
   hand.MoveTo(0.01);
   hand.MoveTo(-0.001);
-  ASSERT_TRUE(hand.Scene->Grip());
+  ASSERT_TRUE(hand.Scene->GetGrip()->Take());
   hand.MoveTo(0.01);
   hand.Scene->Update();
   EXPECT_NEAR(cube->GetPosition()[2], 0.01, Clearance);
   whole->RemovePart(cube);
   hand.MoveTo(0.03);
-  EXPECT_EQ(hand.Scene->GetGrippedSurface(), -1);
+  EXPECT_EQ(hand.Scene->GetGrip()->GetSurface(), -1);
   EXPECT_NEAR(cube->GetPosition()[2], 0.01, Clearance);
 }
 
@@ -177,8 +177,8 @@ TEST(GripBadInput, AGeometryThatChangesMeanwhileIsFeltWhenItIsLetGo)
       bench.Scene->Step(2);
       EXPECT_EQ(bench.Force(), 0.0);
     }
-    EXPECT_EQ(bench.Scene->GetGrippedSurface(), bench.PartId);
-    bench.Scene->LetGo();
+    EXPECT_EQ(bench.Scene->GetGrip()->GetSurface(), bench.PartId);
+    bench.Scene->GetGrip()->LetGo();
     bench.Scene->Step(2);
     EXPECT_TRUE(bench.Scene->GetTouching());
     const Point p = bench.GodObject() - bench.Place(bench.Part);
@@ -186,13 +186,13 @@ TEST(GripBadInput, AGeometryThatChangesMeanwhileIsFeltWhenItIsLetGo)
 
     bench.Go(0.003, 0.005, 0.09);
     bench.Go(0.003, 0.005, 0.056);
-    ASSERT_TRUE(bench.Scene->Grip());
+    ASSERT_TRUE(bench.Scene->GetGrip()->Take());
     EventCounter errors(bench.Scene, vtkCommand::ErrorEvent);
     bench.Part->SetMapper(nullptr);
     bench.Go(0.003, 0.005, 0.08, 2);
     EXPECT_EQ(errors.Count, 1) << "the last good one stays";
-    EXPECT_EQ(bench.Scene->GetGrippedSurface(), bench.PartId);
-    bench.Scene->LetGo();
+    EXPECT_EQ(bench.Scene->GetGrip()->GetSurface(), bench.PartId);
+    bench.Scene->GetGrip()->LetGo();
     bench.Go(0.003, 0.005, 0.079, 2);
   }
 }
@@ -243,15 +243,15 @@ TEST(GripBadInput, APartThatDeformsMeanwhileIsNeverEntered)
       ASSERT_GT(Length(bench.GodObject() - middle), 0.99 * std::min(before, radius)) << round;
     }
     ASSERT_EQ(bench.Scene->GetTouchedSurface(), id);
-    ASSERT_TRUE(bench.Scene->Grip());
+    ASSERT_TRUE(bench.Scene->GetGrip()->Take());
     for (int i = 1; i <= 6; ++i)
     {
       beat();
       const Point hip = bench.GodObject();
       bench.Go(hip[0] - 0.003, hip[1], hip[2] + (round % 2 ? 0.004 : -0.004) - push, 16);
-      gripped += bench.Scene->GetGrippedSurface() == id ? 1 : 0;
+      gripped += bench.Scene->GetGrip()->GetSurface() == id ? 1 : 0;
     }
-    bench.Scene->LetGo();
+    bench.Scene->GetGrip()->LetGo();
     middle = bench.Place(actor);
     for (int i = 0; i < 16; ++i)
     {
@@ -290,7 +290,7 @@ TEST(GripBadInput, AMatrixThatIsNoGoodMeanwhileMovesNothing)
     bench.Part->SetScale(1.0);
     bench.Scene->Update();
     EXPECT_NEAR(bench.Place(bench.Part)[2], 0.04, Clearance) << i << ": it comes to the hand again";
-    bench.Scene->LetGo();
+    bench.Scene->GetGrip()->LetGo();
     bench.Go(0.003, 0.005, 0.059);
     EXPECT_NEAR(bench.GodObject()[2], 0.06, Clearance);
   }
@@ -316,7 +316,7 @@ TEST(GripBadInput, TheWorkspaceMayChangeMeanwhile)
   bench.Scene->SetWorkspaceTransform(vtkNew<vtkMatrix4x4>());
   bench.Scene->Step(2);
   EXPECT_EQ(errors.Count, 0) << "too fast for a surface, not for the hand that has it";
-  bench.Scene->LetGo();
+  bench.Scene->GetGrip()->LetGo();
   bench.Scene->Step(2);
   EXPECT_NEAR(bench.Place(bench.Part)[2], 0.045 - 0.02, 1e-6);
   bench.Go(0.003, 0.005, 0.044);

@@ -215,7 +215,7 @@ TEST(HapticScene, TheTraceHasOnePointATickWithItsArrays)
   EXPECT_EQ(value("OriginalCellId", 1, 0), 0);
   EXPECT_NEAR(value("Penetration", 1, 0), 0.004, Clearance);
   EXPECT_NEAR(value("Force", 1, 2), 500.0 * 0.004, 500.0 * Clearance);
-  EXPECT_EQ(hand.Scene->GetNumberOfLostTicks(), 0);
+  EXPECT_EQ(hand.Scene->GetTraceRecorder()->GetNumberOfLostTicks(), 0);
 }
 
 TEST(HapticScene, LongRunsInVirtualTimeLoseNoTick)
@@ -225,17 +225,17 @@ TEST(HapticScene, LongRunsInVirtualTimeLoseNoTick)
   hand.Scene->StartRecording();
   EXPECT_EQ(hand.Scene->Step(40000), 40000);
   EXPECT_EQ(hand.Scene->GetTrace()->GetNumberOfPoints(), 40000);
-  EXPECT_EQ(hand.Scene->GetNumberOfLostTicks(), 0);
+  EXPECT_EQ(hand.Scene->GetTraceRecorder()->GetNumberOfLostTicks(), 0);
 }
 
 TEST(HapticScene, AFullTraceStopsRecordingWithAWarning)
 {
   LedHand hand;
-  hand.Scene->SetMaximumTraceTicks(5);
+  hand.Scene->GetTraceRecorder()->SetMaximumTicks(5);
   EventCounter warnings(hand.Scene, vtkCommand::WarningEvent);
   hand.Scene->StartRecording();
   hand.Scene->Step(20);
-  EXPECT_FALSE(hand.Scene->GetRecording());
+  EXPECT_FALSE(hand.Scene->GetTraceRecorder()->GetRecording());
   EXPECT_EQ(hand.Scene->GetTrace()->GetNumberOfPoints(), 5);
   EXPECT_EQ(warnings.Count, 1);
 }

@@ -4,6 +4,7 @@
 #include "ImageTestTools.h"
 
 #include "vtkCubeSource.h"
+#include "vtkHapticGrip.h"
 #include "vtkPlaneSource.h"
 
 #include <iostream>
@@ -42,10 +43,11 @@ int TestCarry(int argc, char* argv[])
   touch.MoveTo(-0.044, -0.005, 0.005);
   touch.MoveTo(0.0, -0.005, 0.05);
   touch.MoveTo(0.075, -0.005, 0.01);
-  if (touch.Scene->GetGrippedSurface() < 0 || touch.Scene->GetForce()[0] > -1.0)
+  if (touch.Scene->GetGrip()->GetSurface() < 0 || touch.Scene->GetForce()[0] > -1.0)
   {
     std::cerr << "The block holds nothing: force " << touch.Scene->GetForce()[0]
-              << " N along x, surface " << touch.Scene->GetGrippedSurface() << " gripped" << '\n';
+              << " N along x, surface " << touch.Scene->GetGrip()->GetSurface() << " gripped"
+              << '\n';
     return EXIT_FAILURE;
   }
 

@@ -8,6 +8,7 @@
 
 #include "vtkCamera.h"
 #include "vtkCellArray.h"
+#include "vtkHapticGrip.h"
 #include "vtkHapticOverlay.h"
 #include "vtkMouseHapticDevice.h"
 #include "vtkPoints.h"
@@ -373,7 +374,7 @@ TEST(MouseHapticDevice, AKeyGripsTheTableAndTheMouseCarriesIt)
   EXPECT_NEAR(window.Table->GetPosition()[2], -0.008, Clearance);
   window.Press('x');
   window.Tick();
-  EXPECT_EQ(window.Hand.Scene->GetGrippedSurface(), -1);
+  EXPECT_EQ(window.Hand.Scene->GetGrip()->GetSurface(), -1);
   window.Send(vtkCommand::MouseMoveEvent, 71, 45);
   window.Tick();
   EXPECT_NEAR(window.Hand.Scene->GetForce()[2], 500.0 * 0.003, 1e-3) << "space presses on";

@@ -119,9 +119,11 @@ def _pass_on(now, caller):
         warnings.warn(f"{name_of(reporter)}: {text}", HapticsWarning, stacklevel=3)
     error = None
     if now.errors:
-        # Each text once; what the object that was called says comes first.
-        reports = list({text: (reporter, text) for reporter, text in reversed(now.errors)}.values())
-        reports.sort(key=lambda report: report[0] is not caller)
+        # What the object that was called says comes first; each text once, as others pass it on.
+        by_text = {}
+        for reporter, text in sorted(now.errors, key=lambda report: report[0] is not caller):
+            by_text.setdefault(text, (reporter, text))
+        reports = list(by_text.values())
         lines = [f"{name_of(reporter)}: {text}" for reporter, text in reports]
         error = HapticsError("\n".join(lines), *reports[0])
     if now.raised:

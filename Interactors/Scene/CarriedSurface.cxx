@@ -1,4 +1,4 @@
-#include "haptics/Scene/HapticGrip.h"
+#include "haptics/Scene/CarriedSurface.h"
 
 #include "haptics/Scene/SurfaceSet.h"
 #include "vtkActor.h"
@@ -23,7 +23,7 @@ double Largest(const Vec3& v)
 }
 }
 
-void HapticGrip::Take(int surface, const TickRecord& latest, SurfaceSet& surfaces)
+void CarriedSurface::Take(int surface, const TickRecord& latest, SurfaceSet& surfaces)
 {
   this->Gripped = surface;
   this->Since = 0;
@@ -32,19 +32,19 @@ void HapticGrip::Take(int surface, const TickRecord& latest, SurfaceSet& surface
   surfaces.SetGripped(surface, true);
 }
 
-void HapticGrip::LetGo(SurfaceSet& surfaces)
+void CarriedSurface::LetGo(SurfaceSet& surfaces)
 {
   surfaces.SetGripped(this->Gripped, false);
   this->Gripped = Nothing;
 }
 
-bool HapticGrip::IsLost(const SurfaceSet& surfaces) const
+bool CarriedSurface::IsLost(const SurfaceSet& surfaces) const
 {
   const HapticSurface* const surface = surfaces.Find(this->Gripped);
   return this->Gripped != Nothing && !(surface && surface->Touched());
 }
 
-void HapticGrip::Published(std::uint64_t generation)
+void CarriedSurface::Published(std::uint64_t generation)
 {
   if (this->Since == 0)
   {
@@ -52,7 +52,7 @@ void HapticGrip::Published(std::uint64_t generation)
   }
 }
 
-void HapticGrip::Remember(const TickRecord& tick, const SurfaceSet& surfaces)
+void CarriedSurface::Remember(const TickRecord& tick, const SurfaceSet& surfaces)
 {
   if (const HapticSurface* const surface = surfaces.Find(this->Gripped))
   {
@@ -63,7 +63,7 @@ void HapticGrip::Remember(const TickRecord& tick, const SurfaceSet& surfaces)
   }
 }
 
-void HapticGrip::Look(const TickRecord& tick, const SurfaceSet& surfaces)
+void CarriedSurface::Look(const TickRecord& tick, const SurfaceSet& surfaces)
 {
   if (this->Gripped == Nothing || this->IsHeld)
   {
@@ -77,7 +77,7 @@ void HapticGrip::Look(const TickRecord& tick, const SurfaceSet& surfaces)
   }
 }
 
-bool HapticGrip::Carry(const TickRecord& tick, vtkActor* actor, SurfaceSet& surfaces)
+bool CarriedSurface::Carry(const TickRecord& tick, vtkActor* actor, SurfaceSet& surfaces)
 {
   HapticSurface* const surface = surfaces.Find(this->Gripped);
   if (!surface || !this->IsHeld)

@@ -1,12 +1,11 @@
-#ifndef Haptics_HapticGrip_h
-#define Haptics_HapticGrip_h
+#ifndef Haptics_CarriedSurface_h
+#define Haptics_CarriedSurface_h
 
 #include "haptics/Math/Vec3.h"
 #include "haptics/Scene/ActorMatrix.h"
 #include "haptics/Tick/TickRecord.h"
 
 #include <cstdint>
-#include <set>
 
 class vtkActor;
 
@@ -18,12 +17,13 @@ class SurfaceSet;
 ///
 /// The place where it was touched last before the servo let the hand into it stays in the hand. GUI
 /// thread.
-class HapticGrip
+class CarriedSurface
 {
 public:
   static constexpr int Nothing = -1;
   /// The id of what is gripped, or Nothing.
   int Surface() const { return this->Gripped; }
+  bool IsNothing() const { return this->Gripped == Nothing; }
 
   /// Grips a surface that is in the set and has an actor. `latest`: the last tick that is known.
   void Take(int surface, const TickRecord& latest, SurfaceSet& surfaces);
@@ -32,7 +32,7 @@ public:
   /// Whether what is gripped cannot be touched any more: taken away or hidden.
   bool IsLost(const SurfaceSet& surfaces) const;
 
-  /// Is told the number of each god-object that is published.
+  /// Takes the number of each god-object that is published.
   void Published(std::uint64_t generation);
   /// Looks at the next tick.
   void Look(const TickRecord& tick, const SurfaceSet& surfaces);
@@ -41,9 +41,6 @@ public:
   bool Carry(const TickRecord& tick, vtkActor* actor, SurfaceSet& surfaces);
   /// Of the surface where it was gripped, world frame; zeros where it was not touched.
   const Vec3& Normal() const { return this->NormalThere; }
-
-  bool IsButtonHeld = false; ///< the device's, as of the last update
-  std::set<int> Refused;     ///< surfaces that a button could not grip, which was told once
 
 private:
   void Remember(const TickRecord& tick, const SurfaceSet& surfaces);
