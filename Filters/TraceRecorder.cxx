@@ -1,5 +1,6 @@
 #include "haptics/Filters/TraceRecorder.h"
 
+#include "haptics/Filters/LengthUnit.h"
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"
@@ -13,15 +14,16 @@
 #include "vtkSmartPointer.h"
 
 #include <numeric>
+#include <string>
 
 namespace haptics
 {
 namespace
 {
-/// A dimensionless array has none; that of a length is not known here.
+/// A dimensionless array has none.
 void SetUnit(vtkDataArray* array, const char* unit)
 {
-  if (unit)
+  if (unit && *unit)
   {
     array->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), unit);
   }
@@ -77,12 +79,14 @@ TraceTick::TraceTick(const TickRecord& record, std::int32_t surface, std::int64_
 {
 }
 
-void TraceRecorder::Write(vtkPolyData* trace) const
+void TraceRecorder::Write(vtkPolyData* trace, double unitLength) const
 {
+  const std::string unit = LengthUnitName(unitLength);
+  const char* const length = unit.c_str();
   trace->Initialize();
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
-  points->SetData(Vectors("GodObject", this->Ticks, &TraceTick::GodObject, nullptr));
+  points->SetData(Vectors("GodObject", this->Ticks, &TraceTick::GodObject, length));
   trace->SetPoints(points);
   if (!this->Ticks.empty())
   {
@@ -94,7 +98,7 @@ void TraceRecorder::Write(vtkPolyData* trace) const
   }
   vtkPointData* const data = trace->GetPointData();
   AddScalar<vtkDoubleArray>(trace, "Time", this->Ticks, &TraceTick::Time, "s");
-  data->AddArray(Vectors("HapticInterfacePoint", this->Ticks, &TraceTick::Hip, nullptr));
+  data->AddArray(Vectors("HapticInterfacePoint", this->Ticks, &TraceTick::Hip, length));
   data->AddArray(Vectors("Force", this->Ticks, &TraceTick::Force, "N"));
   data->AddArray(Vectors("Normal", this->Ticks, &TraceTick::Normal, nullptr));
   AddScalar<vtkIntArray>(
@@ -102,7 +106,7 @@ void TraceRecorder::Write(vtkPolyData* trace) const
   AddScalar<vtkIntArray>(trace, "Surface", this->Ticks, &TraceTick::Surface, nullptr);
   AddScalar<vtkIdTypeArray>(trace, "OriginalCellId", this->Ticks, &TraceTick::Cell, nullptr);
   data->AddArray(Vectors("BarycentricWeights", this->Ticks, &TraceTick::Weights, nullptr));
-  AddScalar<vtkDoubleArray>(trace, "Penetration", this->Ticks, &TraceTick::Penetration, nullptr);
+  AddScalar<vtkDoubleArray>(trace, "Penetration", this->Ticks, &TraceTick::Penetration, length);
   AddScalar<vtkDoubleArray>(trace, "Stiffness", this->Ticks, &TraceTick::Stiffness, "N/m");
   AddScalar<vtkDoubleArray>(trace, "Energy", this->Ticks, &TraceTick::Energy, "J");
   AddScalar<vtkDoubleArray>(trace, "EnergyTank", this->Ticks, &TraceTick::Tank, "J");

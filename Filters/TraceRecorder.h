@@ -46,8 +46,9 @@ public:
   vtkIdType Size() const { return static_cast<vtkIdType>(this->Ticks.size()); }
   void Add(const TraceTick& tick) { this->Ticks.push_back(tick); }
 
-  /// Replaces the content of `trace` by the ticks so far.
-  void Write(vtkPolyData* trace) const;
+  /// Replaces the content of `trace` by the ticks so far. `unitLength`: of a world unit [m], 0
+  /// where it is not known.
+  void Write(vtkPolyData* trace, double unitLength) const;
 
 private:
   std::vector<TraceTick> Ticks;

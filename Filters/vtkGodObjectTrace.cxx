@@ -1,8 +1,10 @@
 #include "vtkGodObjectTrace.h"
 
 #include "haptics/Filters/ErrorText.h"
+#include "haptics/Filters/LengthUnit.h"
 #include "haptics/Filters/NumberSetting.h"
 #include "haptics/Filters/TouchedArrays.h"
+#include "haptics/Filters/TraceCSV.h"
 #include "haptics/Filters/TraceRecorder.h"
 #include "vtkGodObjectFilter.h"
 #include "vtkHapticProperties.h"
@@ -12,6 +14,7 @@
 #include "haptics/Tick/SurfaceForce.h"
 
 #include "vtkAlgorithmOutput.h"
+#include "vtkBoundingBox.h"
 #include "vtkCellData.h"
 #include "vtkCommand.h"
 #include "vtkDataArray.h"
@@ -27,6 +30,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <sstream>
 #include <utility>
 
 namespace
@@ -70,9 +74,66 @@ void vtkGodObjectTrace::SetMaximumForce(double value)
   haptics::SetNumber(this, "MaximumForce", this->MaximumForce, value, 0.0, 1e100);
 }
 
-void vtkGodObjectTrace::SetWorldToDeviceScale(double value)
+void vtkGodObjectTrace::SetUnitLength(double metres)
 {
-  haptics::SetNumber(this, "WorldToDeviceScale", this->WorldToDeviceScale, value, 1e-100, 1e100);
+  haptics::SetLength(this, "UnitLength", this->UnitLength, metres);
+}
+
+void vtkGodObjectTrace::SetWorldToDeviceScale(double metres)
+{
+  haptics::SetLength(this, "WorldToDeviceScale", this->WorldToDeviceScale, metres);
+}
+
+double vtkGodObjectTrace::ScaleInUse() const
+{
+  return this->WorldToDeviceScale > 0.0 ? this->WorldToDeviceScale
+    : this->UnitLength > 0.0            ? this->UnitLength
+                                        : 1.0;
+}
+
+bool vtkGodObjectTrace::WriteCSV(const char* file)
+{
+  vtkPolyData* const output = this->GetOutput();
+  const std::string error = output->GetPointData()->GetNumberOfArrays() == 0
+    ? "There is no trace to write yet. Call Update() first, and see what it reports."
+    : haptics::WriteTraceCSV(output, file);
+  if (!error.empty())
+  {
+    vtkErrorMacro(<< error);
+  }
+  return error.empty();
+}
+
+/// Of a surface that nobody has given a scale: what is in millimetres is taken for metres.
+void vtkGodObjectTrace::WarnOfSize(vtkPolyData* surface)
+{
+  constexpr double largest = 2.0;
+  constexpr double smallest = 1e-3;
+  constexpr double reach = 0.1; // [m] of a common desktop device
+  const double size =
+    surface->GetNumberOfCells() > 0 ? vtkBoundingBox(surface->GetBounds()).GetMaxLength() : 0.0;
+  const double inHand = size * this->ScaleInUse();
+  const bool isOdd =
+    this->WorldToDeviceScale == 0.0 && size > 0.0 && !(inHand >= smallest && inHand <= largest);
+  if (isOdd && !this->HasWarnedOfSize)
+  {
+    std::ostringstream text;
+    text.precision(3);
+    text << "The surface is " << size << " world units across, which are " << inHand
+         << " m in the hand, and devices reach some " << reach << " m. ";
+    if (this->UnitLength == 0.0)
+    {
+      text << "Give the length of a world unit where that is not 1 m, SetUnitLength(0.001) for "
+              "millimetres, or the metres in the hand for one, ";
+    }
+    else
+    {
+      text << "Give the metres in the hand for one world unit, ";
+    }
+    text << "SetWorldToDeviceScale(" << reach / size << ") for a surface as large as the reach.";
+    vtkWarningMacro(<< text.str());
+  }
+  this->HasWarnedOfSize = isOdd;
 }
 
 void vtkGodObjectTrace::SetTickPeriod(double value)
@@ -251,6 +312,7 @@ int vtkGodObjectTrace::RequestData(
   {
     vtkErrorMacro(<< "The surface at port 1: " << this->SurfaceError);
   }
+  this->WarnOfSize(prepared->GetOutput());
   this->Replay(path, prepared, output);
   return 1;
 }
@@ -267,7 +329,7 @@ void vtkGodObjectTrace::Replay(vtkPolyData* path, vtkGodObjectFilter* prepared, 
   }
   haptics::GodObject godObject(std::move(surfaces));
   haptics::WorkspaceTransform deviceToWorld;
-  deviceToWorld.Scale = 1.0 / this->WorldToDeviceScale;
+  deviceToWorld.Scale = 1.0 / this->ScaleInUse();
   haptics::ContactTick tick;
   haptics::SurfaceForce law;
   haptics::MaterialLimits limits;
@@ -326,7 +388,7 @@ void vtkGodObjectTrace::Replay(vtkPolyData* path, vtkGodObjectFilter* prepared, 
                     << "the surface to be followed; the god-object waited.");
   }
 
-  recorder.Write(output);
+  recorder.Write(output, this->UnitLength);
   vtkNew<vtkPointData> found;
   found->ShallowCopy(output->GetPointData());
   if (path->GetPointData()->HasArray("Time"))
@@ -350,6 +412,7 @@ void vtkGodObjectTrace::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Stiffness: " << this->Stiffness << " N/m\n";
   os << indent << "MaximumForce: " << this->MaximumForce << " N\n";
+  os << indent << "UnitLength: " << this->UnitLength << " m\n";
   os << indent << "WorldToDeviceScale: " << this->WorldToDeviceScale << " m\n";
   os << indent << "TickPeriod: " << this->TickPeriod << " s\n";
   os << indent << "PassSurfaceArrays: " << (this->PassSurfaceArrays ? "On" : "Off");

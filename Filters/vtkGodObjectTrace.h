@@ -31,8 +31,8 @@
  *   space (0 for whole numbers): see AddSurfaceArray(). One whose name is taken by those above, or
  *   by the path, comes as `Surface` and its name.
  *
- * Arrays have their unit in their information, as vtkDataArray::UNITS_LABEL(), but for lengths in
- * the world unit, which nobody here knows.
+ * Arrays have their unit in their information, as vtkDataArray::UNITS_LABEL(); lengths do where
+ * SetUnitLength() says which it is.
  *
  * A surface without points and cells is nothing to touch: the whole path is in free space.
  *
@@ -97,10 +97,23 @@ public:
 
   ///@{
   /**
-   * @brief Metres in the device frame for one world unit [m]. Default 1; range 1e-100 to 1e100,
-   * other values are clamped.
+   * @brief Length of a world unit [m]: 0.001 for a surface in millimetres. Default 0: not known.
+   * Then lengths in the output have no unit. Range 1e-100 to 1e100; anything else is an error, and
+   * the last one stays.
    */
-  void SetWorldToDeviceScale(double value);
+  void SetUnitLength(double metres);
+  vtkGetMacro(UnitLength, double);
+  ///@}
+
+  ///@{
+  /**
+   * @brief Metres in the device frame for one world unit [m]. Default 0: the surface is felt in its
+   * true size, by UnitLength, or as if in metres where that is not known. Range as of UnitLength.
+   *
+   * A surface that is more than 2 m or less than 1 mm across by that default is a warning, once: a
+   * device reaches some 0.1 m, and the force is that of metres.
+   */
+  void SetWorldToDeviceScale(double metres);
   vtkGetMacro(WorldToDeviceScale, double);
   ///@}
 
@@ -125,6 +138,13 @@ public:
   void AddSurfaceArray(const char* name);
   void ClearSurfaceArrays();
   ///@}
+
+  /**
+   * @brief Writes the output as a table of comma-separated values, a line a tick after one with the
+   * columns' names: Time, GodObject_X, _Y, _Z, then the other arrays. The file is replaced once all
+   * is written. False and an error where it cannot be, or there is no output yet.
+   */
+  bool WriteCSV(const char* file);
 
   /**
    * @brief How a surface feels that does not come from a vtkGodObjectFilter; one that does has that
@@ -159,13 +179,17 @@ private:
   void KeepSurfaceError(vtkObject* caller, unsigned long event, void* text);
   vtkGodObjectFilter* PrepareSurface(vtkPolyData* surface);
   bool CheckPath(vtkPolyData* path);
+  double ScaleInUse() const;
+  void WarnOfSize(vtkPolyData* surface);
   void Replay(vtkPolyData* path, vtkGodObjectFilter* prepared, vtkPolyData* output);
 
   vtkNew<vtkGodObjectFilter> Preparation;
   std::string SurfaceError; // of Preparation, which this class passes on as its own
   double Stiffness = 500.0;
   double MaximumForce = 3.3;
-  double WorldToDeviceScale = 1.0;
+  double UnitLength = 0.0;
+  double WorldToDeviceScale = 0.0;
+  bool HasWarnedOfSize = false; // of the surface that is there
   double TickPeriod = 0.001;
   bool PassSurfaceArrays = true;
   std::vector<std::string> SurfaceArrays; // empty: all

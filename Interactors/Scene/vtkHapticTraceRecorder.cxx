@@ -71,7 +71,7 @@ vtkIdType vtkHapticTraceRecorder::GetNumberOfTicks()
 
 vtkPolyData* vtkHapticTraceRecorder::GetTrace()
 {
-  this->Ticks->Write(this->Trace);
+  this->Ticks->Write(this->Trace, 0.0);
   return this->Trace;
 }
 

@@ -13,11 +13,18 @@
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkSphereSource.h"
+#include "vtkStringArray.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <utility>
 
 using namespace testing_surfaces;
 
@@ -156,6 +163,174 @@ TEST(GodObjectTrace, ScalesTheForceFromWorldToDevice)
   trace->SetMaximumForce(0.25);
   trace->Update();
   EXPECT_NEAR(Tuple(trace->GetOutput(), "Force", 20)[2], 0.25, 1e-12);
+}
+
+/// A plane of 200 mm, pressed by 2 mm.
+class PlaneInMillimetres : public ::testing::Test
+{
+protected:
+  PlaneInMillimetres()
+  {
+    auto plane = Plane();
+    for (vtkIdType i = 0; i < 4; ++i)
+    {
+      double p[3];
+      plane->GetPoint(i, p);
+      plane->GetPoints()->SetPoint(i, 100.0 * p[0], 100.0 * p[1], p[2]);
+    }
+    this->Trace->SetInputData(Path({ { 10, 0, 1 }, { 10, 0, -2 } }));
+    this->Trace->SetSurfaceData(plane);
+  }
+  double Force()
+  {
+    this->Trace->Update();
+    return Tuple(this->Trace->GetOutput(), "Force", 1)[2];
+  }
+  std::string UnitOf(vtkDataArray* array)
+  {
+    const char* const unit = array->GetInformation()->Get(vtkDataArray::UNITS_LABEL());
+    return unit ? unit : "";
+  }
+  std::string UnitOf(const char* name)
+  {
+    return this->UnitOf(this->Trace->GetOutput()->GetPointData()->GetArray(name));
+  }
+  const double Clearance = 500.0 * 2e-5; // [N], of 20 um
+
+  vtkNew<vtkGodObjectTrace> Trace;
+};
+
+TEST_F(PlaneInMillimetres, IsReportedOnceWithARemedyThatHelps)
+{
+  MessageCatcher messages(this->Trace);
+  EXPECT_NEAR(this->Force(), 3.3, 1e-12) << "2 m deep: the largest force";
+  const std::string warning = messages.Warnings();
+  EXPECT_NE(warning.find("200 world units across"), std::string::npos) << warning;
+  EXPECT_NE(warning.find("SetUnitLength(0.001)"), std::string::npos) << warning;
+  EXPECT_NE(warning.find("SetWorldToDeviceScale(0.0005)"), std::string::npos) << warning;
+  this->Trace->SetStiffness(400.0);
+  this->Force();
+  EXPECT_EQ(messages.Warnings(), warning) << "once";
+
+  for (const bool byUnit : { true, false }) // both remedies
+  {
+    MessageCatcher after(this->Trace);
+    this->Trace->SetStiffness(500.0);
+    this->Trace->SetUnitLength(byUnit ? 0.001 : 0.0);
+    this->Trace->SetWorldToDeviceScale(byUnit ? 0.0 : 0.0005);
+    EXPECT_NEAR(this->Force(), byUnit ? 1.0 : 0.5, this->Clearance);
+    EXPECT_EQ(after.Warnings() + after.Errors(), "");
+  }
+  this->Trace->SetWorldToDeviceScale(0.0); // again, after it was right
+  this->Force();
+  EXPECT_EQ(messages.Warnings(), warning + warning);
+}
+
+TEST_F(PlaneInMillimetres, IsToldToBeTooSmallInMicrometres)
+{
+  MessageCatcher messages(this->Trace);
+  this->Trace->SetUnitLength(1e-6);
+  this->Force();
+  EXPECT_NE(messages.Warnings().find("0.0002 m in the hand"), std::string::npos)
+    << messages.Warnings();
+  EXPECT_EQ(messages.Warnings().find("SetUnitLength"), std::string::npos) << "it is known";
+  EXPECT_NE(messages.Warnings().find("SetWorldToDeviceScale(0.0005)"), std::string::npos);
+  this->Trace->SetWorldToDeviceScale(0.0005);
+  MessageCatcher after(this->Trace);
+  EXPECT_NEAR(this->Force(), 0.5, this->Clearance);
+  EXPECT_EQ(after.Warnings(), "");
+}
+
+TEST_F(PlaneInMillimetres, LengthsHaveTheirUnit)
+{
+  this->Trace->SetWorldToDeviceScale(0.001);
+  const std::pair<double, const char*> units[] = { { 0.0, "" }, { 0.001, "mm" }, { 1.0, "m" },
+    { 1e-6, "um" }, { 0.0254, "in" }, { 0.5, "0.5 m" } };
+  for (const auto& unit : units)
+  {
+    this->Trace->SetUnitLength(unit.first);
+    EXPECT_NEAR(this->Force(), 1.0, this->Clearance) << "in the hand it is as large as ever";
+    EXPECT_EQ(this->UnitOf("HapticInterfacePoint"), unit.second);
+    EXPECT_EQ(this->UnitOf("Penetration"), unit.second);
+    EXPECT_EQ(this->UnitOf(this->Trace->GetOutput()->GetPoints()->GetData()), unit.second);
+    EXPECT_EQ(this->UnitOf("Force"), "N");
+    EXPECT_EQ(this->UnitOf("Normal"), "") << "it has none";
+  }
+}
+
+TEST_F(PlaneInMillimetres, UnitsThatAreNoneAreErrorsAndChangeNothing)
+{
+  this->Trace->SetUnitLength(0.001);
+  const double before = this->Force();
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double bad : { -1.0, std::nan(""), infinity, -infinity, 1e-300, 1e300 })
+  {
+    MessageCatcher messages(this->Trace);
+    this->Trace->SetUnitLength(bad);
+    EXPECT_NE(messages.Errors().find("UnitLength has to be a length"), std::string::npos) << bad;
+    this->Trace->SetWorldToDeviceScale(bad);
+    EXPECT_NE(messages.Errors().find("WorldToDeviceScale has to be a length"), std::string::npos)
+      << bad;
+    EXPECT_EQ(this->Trace->GetUnitLength(), 0.001);
+    EXPECT_EQ(this->Trace->GetWorldToDeviceScale(), 0.0);
+    EXPECT_EQ(this->Force(), before);
+  }
+}
+
+TEST_F(PlaneInMillimetres, IsWrittenAsATable)
+{
+  this->Trace->SetUnitLength(0.001);
+  MessageCatcher messages(this->Trace);
+  const std::string file = ::testing::TempDir() + "trace.csv";
+  EXPECT_FALSE(this->Trace->WriteCSV(file.c_str())) << "there is none yet";
+  EXPECT_NE(messages.Errors().find("Update()"), std::string::npos) << messages.Errors();
+  this->Force(); // the remedy
+  ASSERT_TRUE(this->Trace->WriteCSV(file.c_str()));
+  std::ifstream stream(file);
+  std::string names;
+  std::string free;
+  std::string pressed;
+  std::string more;
+  std::getline(stream, names);
+  std::getline(stream, free);
+  std::getline(stream, pressed);
+  EXPECT_FALSE(std::getline(stream, more)) << "a line a tick";
+  EXPECT_EQ(names.rfind("Time,GodObject_X,GodObject_Y,GodObject_Z,HapticInterfacePoint_X,", 0), 0u)
+    << names;
+  EXPECT_EQ(free.rfind("0,10,0,1,10,0,1,0,0,0,", 0), 0u) << free;
+  EXPECT_EQ(pressed.rfind("0.001,10,0,", 0), 0u) << pressed;
+  const auto fields = [](const std::string& line)
+  { return std::count(line.begin(), line.end(), ','); };
+  EXPECT_EQ(fields(names), fields(pressed));
+
+  EXPECT_FALSE(this->Trace->WriteCSV((::testing::TempDir() + "no folder/trace.csv").c_str()));
+  EXPECT_NE(messages.Errors().find("Check that the folder exists"), std::string::npos);
+  EXPECT_FALSE(this->Trace->WriteCSV(nullptr));
+  EXPECT_FALSE(this->Trace->WriteCSV(""));
+  std::remove(file.c_str());
+}
+
+TEST(GodObjectTrace, TextsOfATableAreQuoted)
+{
+  auto path = Path({ { 0, 0, 1 }, { 0, 0, 2 } });
+  vtkNew<vtkStringArray> notes;
+  notes->SetName("Note, or \"remark\"");
+  notes->InsertNextValue("a,b");
+  notes->InsertNextValue("plain");
+  path->GetPointData()->AddArray(notes);
+  vtkNew<vtkGodObjectTrace> trace;
+  trace->SetInputData(path);
+  trace->SetSurfaceData(Plane());
+  trace->Update();
+  const std::string file = ::testing::TempDir() + "texts.csv";
+  ASSERT_TRUE(trace->WriteCSV(file.c_str()));
+  std::stringstream text;
+  text << std::ifstream(file).rdbuf();
+  for (const char* const field : { "\"Note, or \"\"remark\"\"\"", "\"a,b\"\n", ",plain\n" })
+  {
+    EXPECT_NE(text.str().find(field), std::string::npos) << text.str();
+  }
+  std::remove(file.c_str());
 }
 
 TEST(GodObjectTrace, PassesThePointDataOfThePath)

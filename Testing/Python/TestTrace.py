@@ -13,6 +13,7 @@ import warnings
 import numpy as np
 import vtkhaptics
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkDataArray
 from vtkmodules.vtkCommonDataModel import (
     vtkHexahedron,
     vtkMultiBlockDataSet,
@@ -163,6 +164,8 @@ class Refusals(unittest.TestCase):
         self.refused(ValueError, "stiffness is -1", stiffness=-1)
         self.refused(ValueError, "maximum_force is nan", maximum_force=np.nan)
         self.refused(ValueError, "scale is 0", scale=0)
+        for unit in (0.0, -1.0, np.nan, np.inf, "furlong"):
+            self.refused(ValueError, f"unit is {unit!r}", unit=unit)
         self.refused(ValueError, "period is inf", period=np.inf)
         self.refused(ValueError, "'automatic', 'front', 'both'", side="back")
         self.refused(ValueError, r"time has the shape \(2,\)", time=[0.0, 1.0])
@@ -220,12 +223,47 @@ class Results(unittest.TestCase):
         )
 
     def test_a_surface_in_millimetres_is_noticed(self):
-        with self.assertWarnsRegex(vtkhaptics.HapticsWarning, "1000 units across.*scale=0.001"):
+        with self.assertWarnsRegex(vtkhaptics.HapticsWarning, "1000 units across.*unit='mm'"):
             vtkhaptics.trace((1000 * VERTICES, TRIANGLES), 1000 * PATH)
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             vtkhaptics.trace((1000 * VERTICES, TRIANGLES), 1000 * PATH, scale=1.0)
             vtkhaptics.trace((VERTICES, TRIANGLES), PATH)
+            in_mm = vtkhaptics.trace((1000 * VERTICES, TRIANGLES), 1000 * PATH, unit="mm")
+        np.testing.assert_allclose(in_mm.force, PRESSED, atol=1e-3)
+        self.assertEqual(
+            in_mm.polydata.GetPointData().GetArray("Penetration").GetInformation().Get(
+                vtkDataArray.UNITS_LABEL()
+            ),
+            "mm",
+        )
+        self.assertEqual(vtkhaptics.trace((VERTICES, TRIANGLES), PATH, unit=0.5, scale=1.0).force[1, 2],
+                         vtkhaptics.trace((VERTICES, TRIANGLES), PATH).force[1, 2])
+
+    def test_a_surface_that_is_too_small_is_noticed(self):
+        with self.assertWarnsRegex(vtkhaptics.HapticsWarning, "1e-06 m in the hand. Give scale=0.1 to"):
+            vtkhaptics.trace((VERTICES, TRIANGLES), PATH, unit="um")
+        with self.assertWarnsRegex(vtkhaptics.HapticsWarning, "unit='mm' for millimetres, or scale=1e"):
+            vtkhaptics.trace((1e-4 * VERTICES, TRIANGLES), 1e-4 * PATH)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            vtkhaptics.trace((VERTICES, TRIANGLES), PATH, unit="um", scale=0.1)
+
+    def test_a_table_from_cpp_says_the_same(self):
+        surface = vtkhaptics.polydata((VERTICES, TRIANGLES))
+        trace = vtkhaptics.vtkGodObjectTrace()
+        trace.SetInputData(0, vtkhaptics.tracing.path_data(PATH))
+        trace.SetSurfaceData(surface)
+        trace.Update()
+        tables = []
+        with tempfile.TemporaryDirectory() as folder:
+            for write in (trace.WriteCSV, vtkhaptics.Trace(trace.GetOutput()).to_csv):
+                write(os.path.join(folder, "trace.csv"))
+                with open(os.path.join(folder, "trace.csv"), newline="") as text:
+                    tables.append(list(csv.reader(text)))
+        self.assertEqual(tables[0][0], tables[1][0])
+        for line, same in zip(tables[0][1:], tables[1][1:]):
+            self.assertEqual([float(v) for v in line], [float(v) for v in same])
 
     def test_csv(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -3,6 +3,7 @@
 import gzip
 import io
 import os
+import struct
 import subprocess
 import sys
 import tempfile
@@ -18,12 +19,15 @@ from vtkmodules.vtkIOImage import vtkPNGReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
 from vtkmodules.vtkRenderingCore import vtkCamera
 
+import vtkhaptics
 from vtkhaptics import detail, surfaces
 from vtkhaptics import viewer as viewer_module
 from vtkhaptics.arguments import parse
 from vtkhaptics.picture import fill_view
 from vtkhaptics.progress import ProgressBar
 from vtkhaptics.recording import read_recording
+from vtkhaptics.surfaces import unit_note
+from vtkhaptics.units import file_unit
 from vtkhaptics.viewer import Viewer, main
 
 
@@ -147,6 +151,26 @@ def test_options_of_the_material_and_landmarks(folder):
         shown.add_surfaces()
     id_ = shown.scene.GetSurfaceId(0)
     assert shown.scene.GetSurfaceProperties(id_).GetStaticFriction() == 0.5
+
+
+def test_units_that_files_name(folder):
+    nifti1, nifti2 = bytearray(352), bytearray(544)
+    for header, size in ((nifti1, 348), (nifti2, 540)):
+        struct.pack_into("<i", header, 0, size)
+    for code, unit in ((0, None), (1, "m"), (2, "mm"), (3 + 8, "um")):  # 8: of time, seconds
+        nifti1[123] = code
+        struct.pack_into("<i", nifti2, 500, code)
+        for number, header in enumerate((nifti1, nifti2)):
+            path = os.path.join(folder, f"image{number}.nii")
+            with open(path, "wb") as file, gzip.open(path + ".gz", "wb") as packed:
+                file.write(header)
+                packed.write(header)
+            assert file_unit(path) == file_unit(path + ".gz") == unit, (code, number)
+    assert file_unit("part.glb") == "m" and file_unit("pial.gii.gz") == "mm"
+    assert file_unit(folder) == "mm" and file_unit("part.stl") is None
+    text = unit_note("part.glb", vtkhaptics.polydata(vtkSphereSource()))
+    assert text.endswith("x 1 m"), text
+    assert unit_note("part.glb", vtkhaptics.polydata(vtkSphereSource()), "in").endswith("x 1 in")
 
 
 def test_large_surfaces_are_coarse_while_the_picture_moves(folder):
@@ -438,6 +462,7 @@ with tempfile.TemporaryDirectory() as scratch:
         test_touches_with_the_mouse_and_replays_it,
         test_colours_by_the_first_values_where_none_are_active,
         test_options_of_the_material_and_landmarks,
+        test_units_that_files_name,
         test_large_surfaces_are_coarse_while_the_picture_moves,
         test_simulated,
         test_what_is_gripped_is_carried_in_the_picture,

@@ -4,6 +4,7 @@ import argparse
 import math
 
 from .surfaces import FORMATS
+from .units import METRES
 
 SIDES = ("auto", "front", "both")
 
@@ -27,7 +28,8 @@ moves the mouse there, so it strokes across the middle of the view by itself.
 a large surface is prepared while the window shows it already, with how far it is at the lower left;
 closing the window gives it up.
 
-files name no length unit: sizes are shown in the file's own, and the hand's space is fitted to them.
+few files name their length unit (glTF, DICOM, NIfTI and GIfTI do): sizes are shown in the file's own, or
+with that of --unit, and the hand's space is fitted to them.
 
 exit status:
   0 done; 1 the device or the servo failed, or a file could not be written; 2 wrong arguments or a
@@ -88,7 +90,11 @@ def parse(arguments):
         "--firmware", metavar="FILE", help="what a Falcon is given that has none yet"
     )
     parser.add_argument(
-        "--unit", metavar="NAME", help="length unit of the files, for what is printed, such as mm"
+        "--unit",
+        choices=METRES,
+        help="length unit of the files, for what is printed, shown and written: " + ", ".join(METRES)
+        + " (default: the one that a file names)",
+        metavar="NAME",
     )
     parser.add_argument(
         "--side",

@@ -18,6 +18,7 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 from . import volumes
 from .trial import Crashed, try_apart
+from .units import file_unit
 from .volumes import NoSurfaceError
 
 READERS = {
@@ -236,15 +237,15 @@ def _differs(array):
 
 
 def unit_note(path, surface, unit=None):
-    """One line about the size of a surface, and that its unit is not known where nobody says it:
-    files name none."""
+    """One line about the size of a surface in `unit`, or else in the one that its file names, and
+    that it is not known where neither is."""
     low, high = surface.GetBounds()[::2], surface.GetBounds()[1::2]
     size = " x ".join(f"{b - a:.4g}" for a, b in zip(low, high))
     triangles = sum(
         cells.GetNumberOfConnectivityIds() - 2 * cells.GetNumberOfCells()
         for cells in (surface.GetPolys(), surface.GetStrips())
     )
-    length = unit or (
+    length = unit or file_unit(path) or (
         "in the file's own length unit (it names none; the hand's space is fitted to it)"
     )
     return f"{os.path.basename(path)}: {triangles:,} triangles, {size} {length}"

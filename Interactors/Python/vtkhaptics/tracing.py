@@ -13,8 +13,11 @@ from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm, vtkAlgorithmOutput
 from .classes import CLASSES
 from .errors import HapticsWarning
 from .meshes import points, polydata
+from .units import metres
 
-LARGEST = 2.0  # [m]: what is larger is not meant to be in metres
+# [m]: what is larger or smaller is not meant to be in metres, as in vtkGodObjectTrace.
+LARGEST = 2.0
+SMALLEST = 1e-3
 SIDES = {"automatic": 2, "front": 0, "both": 1}
 
 
@@ -25,6 +28,7 @@ def trace(
     time: Any = None,
     stiffness: float = 500.0,
     maximum_force: float = 3.3,
+    unit: Union[str, float, None] = None,
     scale: Optional[float] = None,
     period: float = 0.001,
     side: str = "automatic",
@@ -46,9 +50,13 @@ def trace(
         Of the spring between HIP and god-object, in the device's frame [N/m].
     maximum_force : float
         Longer forces are shortened to this [N].
+    unit : str or float
+        Length unit of the surface: "mm", "m", "cm", "um", "nm", "km", "in", "ft", or its metres.
+        Lengths in the trace have it in their information. Default: not known.
     scale : float
-        Metres in the hand for one unit of the surface [m]: 0.001 for a surface in millimetres.
-        Default 1, with a HapticsWarning where that makes the surface larger than 2 m.
+        Metres in the hand for one unit of the surface [m]. Default: its true size, by `unit`, or
+        as if in metres where that is not known; with a HapticsWarning where that makes the surface
+        larger than 2 m or smaller than 1 mm.
     period : float
         From one position to the next [s].
     side : "automatic", "front" or "both"
@@ -66,13 +74,13 @@ def trace(
     >>> t = vtkhaptics.trace((vertices, faces), path)
     >>> t.force                             # (n, 3) [N]
     """
-    given = scale is not None
     if side not in SIDES:
         raise ValueError(f"side is {side!r}; give one of {', '.join(map(repr, SIDES))}.")
     for name, value in (("stiffness", stiffness), ("maximum_force", maximum_force)):
         if not (np.isfinite(value) and value >= 0.0):
             raise ValueError(f"{name} is {value}; it must be finite and not below 0.")
-    for name, value in (("scale", scale if given else 1.0), ("period", period)):
+    unit_length = 0.0 if unit is None else metres(unit)
+    for name, value in (("scale", 1.0 if scale is None else scale), ("period", period)):
         if not (np.isfinite(value) and value > 0.0):
             raise ValueError(f"{name} is {value}; it must be finite and above 0.")
     filter_ = CLASSES["vtkGodObjectTrace"]()
@@ -85,25 +93,35 @@ def trace(
         filter_.SetSurfaceData(polydata(surface))
     filter_.SetStiffness(stiffness)
     filter_.SetMaximumForce(maximum_force)
-    filter_.SetWorldToDeviceScale(scale if given else 1.0)
+    filter_.SetUnitLength(unit_length)
+    # Given where it is the default too: then the filter does not warn in words of its own.
+    filter_.SetWorldToDeviceScale(scale or unit_length or 1.0)
     filter_.SetTickPeriod(period)
     filter_.SetSide(SIDES[side])
     filter_.Update()
-    if not given:
-        _warn_of_size(filter_.GetInputDataObject(1, 0))
+    if scale is None:
+        _warn_of_size(filter_.GetInputDataObject(1, 0), unit_length)
     return Trace(filter_.GetOutput(), period)
 
 
-def _warn_of_size(surface):
+def _warn_of_size(surface, unit_length):
+    if not surface.GetNumberOfCells():
+        return
     low, high = np.reshape(surface.GetBounds(), (3, 2)).T
     size = (high - low).max()
-    if size > LARGEST:
-        warnings.warn(
-            f"the surface is {size:.4g} units across, which in the hand are metres as no scale is "
-            "given. Give the metres of one unit: scale=0.001 for millimetres, scale=1.0 if it is so.",
-            HapticsWarning,
-            stacklevel=3,
-        )
+    in_hand = size * (unit_length or 1.0)
+    if SMALLEST <= in_hand <= LARGEST or size == 0.0:
+        return
+    remedy = f"scale={0.1 / size:.3g} to feel it 0.1 m across, scale={unit_length or 1.0:.3g} if it is so"
+    warnings.warn(
+        f"the surface is {size:.4g} units across, {in_hand:.4g} m in the hand"
+        + (". " if unit_length else " as no unit is given. Give unit='mm' for millimetres, or ")
+        + ("Give " if unit_length else "")
+        + remedy
+        + ".",
+        HapticsWarning,
+        stacklevel=3,
+    )
 
 
 def path_data(path, time=None):
