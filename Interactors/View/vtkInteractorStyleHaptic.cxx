@@ -22,6 +22,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <string>
 #include <utility>
 
@@ -33,6 +34,8 @@ constexpr double LeastRest = 0.004; // [s] between two pictures, for the events
 constexpr double RestShare = 0.15;  // of the time that the last picture took
 
 constexpr double RefusalTime = 5.0; // [s] for which a reason can be read
+
+constexpr const char* CommandsOfVtk = "3aefjlpqrsuwAEFJLPQRSUW"; // that change what is drawn
 
 constexpr const char* MouseHint = "Move the mouse over the surface.\n"
                                   "Hold the space bar to press; move to stroke.\n"
@@ -606,7 +609,9 @@ void vtkInteractorStyleHaptic::OnChar()
       break;
     default:
       this->DrawLater([this] { this->Superclass::OnChar(); });
-      this->MustRender = this->TimerId != 0; // it may have changed what is drawn; none: the end
+      // A key that is held repeats itself: the space bar is to draw nothing. No timer: the end.
+      this->MustRender = this->TimerId != 0 &&
+        (this->MustRender || (key != 0 && std::strchr(CommandsOfVtk, key) != nullptr));
       return;
   }
   this->RenderSoon();

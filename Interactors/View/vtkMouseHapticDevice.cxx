@@ -234,9 +234,9 @@ vtkMouseHapticDevice::vtkMouseHapticDevice()
   this->Callback->SetClientData(this);
   this->Callback->SetCallback(vtkMouseHapticDevice::OnEvent);
   // Passive: a style that moves the camera takes all other observers' events.
-  this->ButtonCallback->SetClientData(this);
-  this->ButtonCallback->SetCallback(vtkMouseHapticDevice::OnButton);
-  this->ButtonCallback->SetPassiveObserver(1);
+  this->PassiveCallback->SetClientData(this);
+  this->PassiveCallback->SetCallback(vtkMouseHapticDevice::OnPassiveEvent);
+  this->PassiveCallback->SetPassiveObserver(1);
 }
 
 vtkMouseHapticDevice::~vtkMouseHapticDevice()
@@ -273,7 +273,7 @@ void vtkMouseHapticDevice::SetInteractor(vtkRenderWindowInteractor* interactor)
   {
     this->ForgetRelease();
     this->Interactor->RemoveObserver(this->Callback);
-    this->Interactor->RemoveObserver(this->ButtonCallback);
+    this->Interactor->RemoveObserver(this->PassiveCallback);
   }
   this->ReleaseTimer = 0;
   this->Interactor = interactor;
@@ -292,9 +292,10 @@ void vtkMouseHapticDevice::SetInteractor(vtkRenderWindowInteractor* interactor)
     for (const unsigned long event :
       { vtkCommand::LeftButtonPressEvent, vtkCommand::LeftButtonReleaseEvent,
         vtkCommand::MiddleButtonPressEvent, vtkCommand::MiddleButtonReleaseEvent,
-        vtkCommand::RightButtonPressEvent, vtkCommand::RightButtonReleaseEvent })
+        vtkCommand::RightButtonPressEvent, vtkCommand::RightButtonReleaseEvent,
+        vtkCommand::KeyReleaseEvent, vtkCommand::TimerEvent })
     {
-      interactor->AddObserver(event, this->ButtonCallback, beforeStyles);
+      interactor->AddObserver(event, this->PassiveCallback, beforeStyles);
     }
   }
   this->Modified();
@@ -349,7 +350,10 @@ bool vtkMouseHapticDevice::Handle(unsigned long event, void* callData)
 {
   if (event == vtkCommand::TimerEvent)
   {
-    return this->HandleTimer(callData);
+    const bool isMine =
+      this->TimerThatRanOut && callData && *static_cast<int*>(callData) == this->TimerThatRanOut;
+    this->TimerThatRanOut = 0;
+    return isMine; // the trackball takes any timer for its own
   }
   const bool isInUse = this->IsInUse();
   if (!isInUse)
@@ -390,15 +394,16 @@ bool vtkMouseHapticDevice::Handle(unsigned long event, void* callData)
       this->Turn(event == vtkCommand::MouseWheelForwardEvent ? 1 : -1);
       return true;
     case vtkCommand::KeyPressEvent:
-    case vtkCommand::KeyReleaseEvent:
       if (space)
       {
         if (!isCamerasTurn)
         {
           std::copy(position, position + 2, this->Cursor);
         }
-        this->HandleSpace(event == vtkCommand::KeyPressEvent);
+        this->HandleSpace(true);
       }
+      return space;
+    case vtkCommand::KeyReleaseEvent: // OnPassiveEvent() has heard it
       return space;
     default: // the mouse has left the window: keys held there go unheard
       this->ForgetRelease();
@@ -407,17 +412,15 @@ bool vtkMouseHapticDevice::Handle(unsigned long event, void* callData)
   }
 }
 
-bool vtkMouseHapticDevice::HandleTimer(void* callData)
+void vtkMouseHapticDevice::HandleTimer(void* callData)
 {
-  const bool isMine =
-    this->ReleaseTimer && callData && *static_cast<int*>(callData) == this->ReleaseTimer;
-  if (isMine)
+  if (this->ReleaseTimer && callData && *static_cast<int*>(callData) == this->ReleaseTimer)
   {
+    this->TimerThatRanOut = this->ReleaseTimer;
     this->ReleaseTimer = 0; // VTK takes it away; not to be destroyed while it fires
     this->SetPressed(false);
   }
   this->WatchContact();
-  return isMine; // the trackball takes any timer for its own
 }
 
 /// Left with Shift presses. True where nobody else is to see it.
@@ -435,10 +438,26 @@ bool vtkMouseHapticDevice::HandleButton(unsigned long event)
   return true;
 }
 
-/// Keeps count of the buttons with which the mouse is the camera's.
-void vtkMouseHapticDevice::OnButton(vtkObject*, unsigned long event, void* clientData, void*)
+/// Hears what the style keeps for itself while it moves the camera: that the space bar is let go
+/// of, and the buttons with which the mouse is the camera's.
+void vtkMouseHapticDevice::OnPassiveEvent(
+  vtkObject*, unsigned long event, void* clientData, void* callData)
 {
   auto* self = static_cast<vtkMouseHapticDevice*>(clientData);
+  if (event == vtkCommand::TimerEvent)
+  {
+    self->HandleTimer(callData);
+    return;
+  }
+  if (event == vtkCommand::KeyReleaseEvent)
+  {
+    const char* key = self->Interactor->GetKeySym();
+    if (key && std::strcmp(key, "space") == 0 && self->IsInUse())
+    {
+      self->HandleSpace(false);
+    }
+    return;
+  }
   unsigned int button = RightButton;
   if (event == vtkCommand::LeftButtonPressEvent || event == vtkCommand::LeftButtonReleaseEvent)
   {

@@ -143,9 +143,10 @@ private:
   static void OnEvent(vtkObject* caller, unsigned long event, void* clientData, void* callData);
   bool IsInUse();
   bool Handle(unsigned long event, void* callData);
-  bool HandleTimer(void* callData);
+  void HandleTimer(void* callData);
   bool HandleButton(unsigned long event);
-  static void OnButton(vtkObject* caller, unsigned long event, void* clientData, void* callData);
+  static void OnPassiveEvent(
+    vtkObject* caller, unsigned long event, void* clientData, void* callData);
   void HandleSpace(bool down);
   void ForgetRelease();
   bool IsCarrying();
@@ -168,7 +169,7 @@ private:
   vtkWeakPointer<vtkRenderWindowInteractor> Interactor;
   vtkWeakPointer<vtkHapticScene> Scene;
   vtkNew<vtkCallbackCommand> Callback;
-  vtkNew<vtkCallbackCommand> ButtonCallback;
+  vtkNew<vtkCallbackCommand> PassiveCallback;
   std::shared_ptr<MouseChannel> Mouse;
   std::array<double, 3> Target{ { 0.0, 0.0, 0.05 } };
   int Cursor[2] = { 0, 0 };
@@ -178,6 +179,7 @@ private:
   bool ShiftPresses = false;            ///< the left button does, with Shift
   unsigned int ButtonsHeld = 0;         ///< of the mouse, for the camera: a bit each
   int ReleaseTimer = 0;                 ///< runs out where the space bar was really let go
+  int TimerThatRanOut = 0;              ///< just now
   double WheelDepth = 0.0;              ///< that the wheel alone has pressed [m], device frame
   double Hover[3] = { 0.0, 0.0, 0.0 };  ///< over the surface where the cursor was last [world unit]
   double Hit[3] = { 0.0, 0.0, 0.0 };    ///< that place of the surface

@@ -185,18 +185,27 @@ def test_large_surfaces_are_coarse_while_the_picture_moves(folder):
     actor = shown.renderer.GetActors().GetLastActor()
 
     def triangles():
+        shown.window.Render()
         return actor.GetMapper().GetInput().GetNumberOfPolys()
 
-    time.sleep(detail.REST + 0.1)
-    shown.window.Render()
     full = triangles()
-    shown.window.Render()
-    assert triangles() < full and triangles() > 100, (triangles(), full)
-    assert not shown.detail.rest(), "it still moves"
-    time.sleep(detail.REST + 0.1)
-    assert shown.detail.rest()
-    shown.window.Render()
-    assert triangles() == full and not shown.detail.rest()
+    assert triangles() == full, "off screen nobody waits for a picture"
+    shown.detail.set_live(True)
+    slow, detail.FRAME_TIME = detail.FRAME_TIME, 3600.0
+    try:
+        assert triangles() == full, "fast enough"
+        detail.FRAME_TIME = 0.0
+        assert 100 < triangles() < full
+        assert not shown.detail.rest(), "it still moves"
+        assert triangles() < full
+        time.sleep(detail.REST + 0.1)
+        assert shown.detail.rest()
+        assert triangles() == full and not shown.detail.rest()
+        assert triangles() < full, "the first one that moves again"
+        shown.detail.set_live(False)
+        assert triangles() == full
+    finally:
+        detail.FRAME_TIME = slow
 
 
 def test_simulated(folder):

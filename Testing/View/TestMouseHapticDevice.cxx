@@ -340,6 +340,37 @@ TEST(MouseHapticDevice, ASpaceBarThatRepeatsItselfIsNotLetGo)
   EXPECT_FALSE(window.Hand.Scene->GetTouching());
 }
 
+// The style that drags the camera takes events for itself. The key that is let go of just before,
+// or meanwhile, is heard all the same.
+TEST(MouseHapticDevice, ASpaceBarThatIsLetGoOfWhileTheCameraIsDraggedIsNotHeld)
+{
+  for (const bool isBefore : { true, false })
+  {
+    MouseWindow window;
+    window.Send(vtkCommand::MouseMoveEvent, 50, 50);
+    window.Send(vtkCommand::KeyPressEvent, 50, 50, "space");
+    window.Tick();
+    ASSERT_TRUE(window.Hand.Scene->GetTouching());
+    if (isBefore)
+    {
+      window.Send(vtkCommand::KeyReleaseEvent, 50, 50, "space");
+    }
+    window.Send(vtkCommand::LeftButtonPressEvent, 50, 50);
+    window.Send(vtkCommand::MouseMoveEvent, 60, 50);
+    if (!isBefore)
+    {
+      window.Send(vtkCommand::KeyReleaseEvent, 60, 50, "space");
+    }
+    window.RunTimersOut();
+    window.Tick();
+    EXPECT_FALSE(window.Mouse->GetPressed()) << isBefore;
+    EXPECT_FALSE(window.Hand.Scene->GetTouching()) << isBefore;
+    window.Send(vtkCommand::LeftButtonReleaseEvent, 60, 50);
+    window.Tick();
+    EXPECT_FALSE(window.Hand.Scene->GetTouching()) << isBefore;
+  }
+}
+
 // x with the space bar held: the hand carries the table in the plane of the view, and is not drawn
 // down to the floor behind it; with the wheel it goes there in steps.
 TEST(MouseHapticDevice, AKeyGripsTheTableAndTheMouseCarriesIt)

@@ -7,7 +7,8 @@ from vtkmodules.vtkFiltersCore import vtkPolyDataNormals, vtkQuadricClustering
 from vtkmodules.vtkRenderingCore import vtkPolyDataMapper
 
 LARGE = 400_000  # triangles, beyond which a computer without a graphics card is slow
-DIVISIONS = 120  # of the coarse surface along each side of its bounds
+DIVISIONS = 64  # of the coarse surface along each side of its bounds
+FRAME_TIME = 0.04  # [s] that a picture in full may take and still be drawn while it moves
 REST = 0.3  # [s] without a new picture, after which the surface is drawn in full
 
 
@@ -52,14 +53,18 @@ def _copy_values(surface, coarse, names):
 
 
 class DetailSwitch:
-    """Draws actors coarsely while pictures follow on each other, by the renderer's StartEvent; ask
-    rest() now and then whether it is time for a picture in full."""
+    """Draws large actors coarsely and edges unsmoothed in a window that is used, where a picture in
+    full takes too long to follow a hand. Ask rest() now and then whether it is time for a picture in full."""
 
     def __init__(self, renderer):
+        self._renderer = renderer
+        self._smooth = False
         self._pairs = []
-        self._last = 0.0
+        self._is_live = False
         self._is_coarse = False
-        renderer.AddObserver("StartEvent", self._on_start)
+        self._full_next = False
+        self._full_time = 0.0  # [s] that the last picture in full took
+        self._began = self._ended = 0.0
 
     def add(self, actor, surface):
         """Takes an actor over, where its surface is large; colour it before."""
@@ -76,16 +81,31 @@ class DetailSwitch:
             coarse.UseLookupTableScalarRangeOn()
         self._pairs.append((actor, full, coarse))
 
+    def watch(self, window):
+        """Takes the pictures of a window over; the first ones are in full."""
+        self._smooth = self._renderer.GetUseFXAA()
+        window.AddObserver("StartEvent", self._on_start)
+        window.AddObserver("EndEvent", self._on_end)
+
+    def set_live(self, is_live):
+        """Whether the pictures are to follow a hand; else all are in full."""
+        self._is_live = is_live
+
     def rest(self):
-        """Whether the last picture was coarse and is to be drawn anew, in full."""
-        if not self._is_coarse or time.monotonic() - self._last < REST:
-            return False
-        self._last = 0.0
-        return True
+        """Whether the picture has rested for a while and is coarse: the next one is in full."""
+        self._full_next = self._is_coarse and time.monotonic() - self._ended > REST
+        return self._full_next
 
     def _on_start(self, *_):
-        now = time.monotonic()
-        self._is_coarse = bool(self._pairs) and now - self._last < REST
-        self._last = now
+        self._began = time.monotonic()
+        is_slow = self._full_time > FRAME_TIME
+        self._is_coarse = bool(self._pairs) and self._is_live and is_slow and not self._full_next
+        self._full_next = False
+        self._renderer.SetUseFXAA(self._smooth and not self._is_coarse)
         for actor, full, coarse in self._pairs:
             actor.SetMapper(coarse if self._is_coarse else full)
+
+    def _on_end(self, *_):
+        self._ended = time.monotonic()
+        if not self._is_coarse:
+            self._full_time = self._ended - self._began

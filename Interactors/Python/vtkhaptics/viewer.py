@@ -181,7 +181,9 @@ class Viewer:
         self.interactor.SetInteractorStyle(vtkInteractorStyleTrackballCamera())
         self.interactor.Initialize()
         self.renderer.ResetCameraClippingRange()
+        self.detail.watch(self.window)
         self.window.Render()
+        self.detail.set_live(not self.options.offscreen)
 
     def build(self):
         """Makes the surfaces touchable, on a thread beside; the camera can be moved meanwhile.
@@ -202,6 +204,7 @@ class Viewer:
             while self.scene.IsBuilding() and not closed:
                 bar.show(self.scene.GetBuildProgress())
                 label(self.scene.GetBuildProgress())
+                self._refine()
                 if not self.options.offscreen:
                     self.interactor.ProcessEvents()
                 time.sleep(BUILD_FRAME)
@@ -318,9 +321,13 @@ class Viewer:
         if self.error:
             raise self.error
 
-    def _on_timer(self, _caller, _event):
+    def _refine(self):
+        """Draws a picture that rests in full."""
         if self.detail.rest():
             self.window.Render()
+
+    def _on_timer(self, _caller, _event):
+        self._refine()
 
     def _on_exit(self, _caller, _event):
         if self.finished:
@@ -352,6 +359,7 @@ class Viewer:
 
     def _finish(self):
         self.scene.StopRecording()
+        self.detail.set_live(False)
         if self.options.screenshot:
             self.renderer.ResetCameraClippingRange()
             self.hand.IncludeInClippingRange(self.renderer)
