@@ -70,7 +70,7 @@ void HapticAssembly::Pull(SurfaceSet& surfaces)
   const auto gone = std::partition(
     this->Parts.begin(), this->Parts.end(), [](const Part& part) { return part.IsThere; });
   std::for_each(
-    gone, this->Parts.end(), [&surfaces](const Part& part) { surfaces.Remove(part.Surface); });
+    gone, this->Parts.end(), [&surfaces](const Part& part) { surfaces.RemovePart(part.Surface); });
   this->Parts.erase(gone, this->Parts.end());
 }
 
@@ -78,7 +78,7 @@ void HapticAssembly::RemoveFrom(SurfaceSet& surfaces)
 {
   for (const Part& part : this->Parts)
   {
-    surfaces.Remove(part.Surface);
+    surfaces.RemovePart(part.Surface);
   }
   this->Parts.clear();
 }

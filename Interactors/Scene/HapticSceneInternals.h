@@ -2,7 +2,7 @@
 #define Haptics_HapticSceneInternals_h
 
 #include "haptics/Scene/BackgroundWorker.h"
-#include "haptics/Scene/HapticAssembly.h"
+#include "haptics/Scene/ReachCheck.h"
 #include "haptics/Scene/SceneEvents.h"
 #include "haptics/Scene/SurfaceSet.h"
 #include "haptics/Tick/TickRecord.h"
@@ -18,14 +18,13 @@ class vtkHapticScene::Internals
 public:
   haptics::BackgroundWorker Worker; // outlives the surfaces that give it work
   haptics::SurfaceSet Surfaces;
-  std::vector<haptics::HapticAssembly> Assemblies; // whose parts are among the surfaces
   bool BackgroundBuilding = false;
   bool WasBuilding = false; ///< as observers were told last
   double BuildProgress = 1.0;
   std::uint64_t Published = 0; ///< generation of the last god-object
   double LastPull = 0.0;       ///< of changed surfaces, the servo's time [s]
   haptics::SceneEvents Events;
-  bool HasWarnedOfReach = false; ///< of a surface that is there
+  haptics::ReachCheck Reach;
   int DeviceState = 0;
   vtkMTimeType LandmarksSeen = 0;
   std::vector<haptics::TickRecord> Drained; // kept for its memory

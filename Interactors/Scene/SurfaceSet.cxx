@@ -7,23 +7,48 @@
 
 namespace haptics
 {
+int SurfaceSet::Add(vtkAssembly* assembly)
+{
+  const int known = this->FindAssembly(assembly);
+  if (known >= 0)
+  {
+    return known;
+  }
+  this->Assemblies.emplace_back(this->NextId++, assembly);
+  return this->Assemblies.back().Id();
+}
+
 bool SurfaceSet::Remove(int id)
 {
-  const auto end = std::remove_if(this->Surfaces.begin(), this->Surfaces.end(),
-    [id](const std::unique_ptr<HapticSurface>& surface) { return surface->Id() == id; });
-  if (end == this->Surfaces.end())
+  const auto assembly = std::find_if(this->Assemblies.begin(), this->Assemblies.end(),
+    [id](const HapticAssembly& a) { return a.Id() == id; });
+  if (assembly != this->Assemblies.end())
+  {
+    assembly->RemoveFrom(*this);
+    this->Assemblies.erase(assembly);
+    return true;
+  }
+  if (this->AssemblyOf(id) || !this->Find(id))
   {
     return false;
   }
-  this->Surfaces.erase(end, this->Surfaces.end());
-  this->Changed = true;
+  this->RemovePart(id);
   return true;
+}
+
+void SurfaceSet::RemovePart(int id)
+{
+  const auto end = std::remove_if(this->Surfaces.begin(), this->Surfaces.end(),
+    [id](const std::unique_ptr<HapticSurface>& surface) { return surface->Id() == id; });
+  this->Changed = this->Changed || end != this->Surfaces.end();
+  this->Surfaces.erase(end, this->Surfaces.end());
 }
 
 void SurfaceSet::Clear()
 {
   this->Changed = this->Changed || !this->Surfaces.empty();
   this->Surfaces.clear();
+  this->Assemblies.clear();
 }
 
 HapticSurface* SurfaceSet::Find(int id) const
@@ -50,6 +75,46 @@ HapticSurface* SurfaceSet::Find(vtkActor* actor) const
   return nullptr;
 }
 
+int SurfaceSet::FindAssembly(vtkAssembly* assembly) const
+{
+  const auto found = std::find_if(this->Assemblies.begin(), this->Assemblies.end(),
+    [assembly](const HapticAssembly& a) { return a.Source() == assembly; });
+  return found != this->Assemblies.end() ? found->Id() : -1;
+}
+
+vtkAssembly* SurfaceSet::AssemblyOf(int id) const
+{
+  const auto found = std::find_if(this->Assemblies.begin(), this->Assemblies.end(),
+    [id](const HapticAssembly& a) { return a.Id() == id || a.FindActor(id); });
+  return found != this->Assemblies.end() ? found->Source() : nullptr;
+}
+
+vtkActor* SurfaceSet::ActorOf(int id) const
+{
+  for (const HapticAssembly& assembly : this->Assemblies)
+  {
+    if (vtkActor* const actor = assembly.FindActor(id))
+    {
+      return actor;
+    }
+  }
+  const HapticSurface* const surface = this->Find(id);
+  return surface ? surface->Actor() : nullptr;
+}
+
+bool SurfaceSet::IsTouchable(int id) const
+{
+  for (const HapticAssembly& assembly : this->Assemblies)
+  {
+    if (assembly.Id() == id)
+    {
+      return assembly.IsTouchable(*this);
+    }
+  }
+  const HapticSurface* const surface = this->Find(id);
+  return surface && surface->Touched() && !surface->IsGripped();
+}
+
 std::string SurfaceSet::Title(int id) const
 {
   const HapticSurface* const surface = this->Find(id);
@@ -63,6 +128,14 @@ void SurfaceSet::SetGripped(int id, bool isGripped)
   {
     surface->SetGripped(isGripped);
     this->Changed = true;
+  }
+}
+
+void SurfaceSet::PullAssemblies()
+{
+  for (HapticAssembly& assembly : this->Assemblies)
+  {
+    assembly.Pull(*this);
   }
 }
 

@@ -2,6 +2,7 @@
 #define Haptics_SurfaceSet_h
 
 #include "haptics/Contact/TouchedSurface.h"
+#include "haptics/Scene/HapticAssembly.h"
 #include "haptics/Scene/HapticSurface.h"
 #include "haptics/Scene/SurfaceRay.h"
 #include "haptics/Tick/TickRecord.h"
@@ -27,6 +28,8 @@ struct SceneCell
 
 /// @brief The surfaces of a scene, and what the servo's indices mean. GUI thread.
 ///
+/// Of an assembly every part is a surface; the assembly itself has an id too, to remove it.
+///
 /// A god-object numbers its surfaces from 0; ids stay when others come and go. What was published
 /// is remembered until no tick can tell of it any more.
 class SurfaceSet
@@ -38,22 +41,35 @@ public:
     this->Surfaces.push_back(std::make_unique<HapticSurface>(this->NextId, std::move(source)));
     return this->NextId++;
   }
-  /// An id that no surface has or will have.
-  int TakeId() { return this->NextId++; }
+  /// Adds an assembly, whose parts come with Pull(); the id that it has where it is known.
+  int Add(vtkAssembly* assembly);
+  /// Removes a surface or a whole assembly; false for a part of one, which would come back.
   bool Remove(int id);
+  /// Removes a surface that is the part of an assembly and has gone from it.
+  void RemovePart(int id);
   void Clear();
 
   const std::vector<std::unique_ptr<HapticSurface>>& All() const { return this->Surfaces; }
   HapticSurface* Find(int id) const;
   HapticSurface* Find(vtkActor* actor) const;
+  /// The id of an assembly; -1 where it is not among them.
+  int FindAssembly(vtkAssembly* assembly) const;
+  /// The assembly that a surface is a part of, or that has this id; null elsewhere.
+  vtkAssembly* AssemblyOf(int id) const;
+  /// The actor that a user sees as a surface, alone or in an assembly; null where there is none.
+  vtkActor* ActorOf(int id) const;
+  /// Whether a surface, or a part of an assembly, can be touched now.
+  bool IsTouchable(int id) const;
   /// HapticSurface::Title() of an id, whether there still is one or not.
   std::string Title(int id) const;
 
   /// Grips a surface or lets go of it, from the next publication on.
   void SetGripped(int id, bool isGripped);
 
-  /// Takes in what has changed. True where a new god-object has to be published. Each new error is
-  /// appended to `errors`, naming its surface.
+  /// Takes in parts of assemblies that have come, gone or moved.
+  void PullAssemblies();
+  /// Takes in what has changed, after PullAssemblies(). True where a new god-object has to be
+  /// published. Each new error is appended to `errors`, naming its surface.
   bool Pull(const PullSettings& settings, std::vector<std::string>& errors);
 
   /// Whether a surface that can be touched was in another place at the last Pull().
@@ -98,6 +114,7 @@ private:
   std::vector<const HapticSurface*> Listed() const;
 
   std::vector<std::unique_ptr<HapticSurface>> Surfaces;
+  std::vector<HapticAssembly> Assemblies; // whose parts are among the surfaces
   std::map<std::uint64_t, std::vector<Entry>> Generations;
   int NextId = 0;
   bool Changed = true;   // nothing was published yet

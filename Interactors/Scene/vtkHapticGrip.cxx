@@ -139,11 +139,8 @@ bool vtkHapticGrip::Carry()
   {
     return false;
   }
-  for (haptics::HapticAssembly& assembly : scene.Assemblies)
-  {
-    assembly.Pull(scene.Surfaces); // the surface of a part only stands for its actor
-  }
-  vtkActor* actor = this->Scene->GetSurfaceActor(this->Carried->Surface());
+  scene.Surfaces.PullAssemblies(); // the surface of a part only stands for its actor
+  vtkActor* actor = scene.Surfaces.ActorOf(this->Carried->Surface());
   return actor && this->Carried->Carry(*scene.Latest, actor, scene.Surfaces);
 }
 

@@ -267,8 +267,11 @@ TEST(HapticSceneBadInput, AFilterMayOutliveItsSurfaceAndFail)
   }
   EXPECT_FALSE(filter->HasObserver(vtkCommand::ErrorEvent)) << "it would call who is gone";
   EventCounter errors(filter, vtkCommand::ErrorEvent);
-  vtkNew<vtkPolyData> nothing;
-  filter->SetInputData(nothing);
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(0.0, 0.0, 0.0);
+  vtkNew<vtkPolyData> withoutPolygons;
+  withoutPolygons->SetPoints(points);
+  filter->SetInputData(withoutPolygons);
   filter->Update();
   EXPECT_EQ(errors.Count, 1);
 }

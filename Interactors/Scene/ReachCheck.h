@@ -1,0 +1,29 @@
+#ifndef Haptics_ReachCheck_h
+#define Haptics_ReachCheck_h
+
+#include <string>
+
+class vtkHapticDevice;
+class vtkHapticWorkspace;
+
+namespace haptics
+{
+class SurfaceSet;
+
+/// @brief Whether a surface is in another unit than the metre, where nobody has chosen a workspace.
+///
+/// There a device touches next to nothing of it, with a force that has little to do with it. GUI
+/// thread.
+class ReachCheck
+{
+public:
+  /// What to warn of now: once, until there is no such surface; empty elsewhere.
+  std::string Check(
+    const SurfaceSet& surfaces, vtkHapticWorkspace* workspace, vtkHapticDevice* device);
+
+private:
+  bool HasWarned = false;
+};
+}
+
+#endif
