@@ -2,7 +2,11 @@
 
 #include <cerrno>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <memory>
 #include <system_error>
 
 namespace haptics
@@ -15,7 +19,8 @@ constexpr char Magic[] = "VTKHAPT1";
 constexpr std::size_t MagicSize = sizeof(Magic) - 1;
 constexpr std::size_t ChecksumSize = 4;
 constexpr std::size_t HeaderSize = MagicSize + 11 * 8 + 2 * 4 + ChecksumSize;
-constexpr std::uint32_t RecordSize = 2 * 8 + 6 * 8 + 4 + ChecksumSize;
+constexpr std::uint32_t OldRecordSize = 2 * 8 + 6 * 8 + 4 + ChecksumSize;
+constexpr std::uint32_t RecordSize = OldRecordSize + 4 + 3 * 8 + 4 + 8;
 
 /// CRC-32 as in ISO 3309 and zip files.
 std::uint32_t Checksum(const unsigned char* bytes, std::size_t size)
@@ -124,15 +129,24 @@ std::string SystemError()
 {
   return std::generic_category().message(errno);
 }
+
+/// Whether there is a regular file that is neither empty nor begins as a recording does.
+bool IsSomethingElse(const std::string& fileName)
+{
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(fileName, none))
+  {
+    return false;
+  }
+  std::array<char, MagicSize> begin{};
+  std::ifstream file(fileName, std::ios::binary);
+  file.read(begin.data(), begin.size());
+  return file.gcount() > 0 && std::memcmp(begin.data(), Magic, MagicSize) != 0;
+}
 }
 
 RecordingWriter::RecordingWriter() = default;
-
-RecordingWriter::~RecordingWriter()
-{
-  std::string ignored; // who wants to know calls Close()
-  this->Close(ignored);
-}
+RecordingWriter::~RecordingWriter() = default;
 
 bool RecordingWriter::Open(
   const std::string& fileName, const RecordingHeader& header, std::string& error)
@@ -141,13 +155,14 @@ bool RecordingWriter::Open(
   {
     return false;
   }
-  this->FileName = fileName;
-  this->File = std::fopen(fileName.c_str(), "wb");
-  if (!this->File)
+  if (IsSomethingElse(fileName))
   {
-    error = "The recording " + fileName + " cannot be written: " + SystemError() + ".";
+    error = "The recording " + fileName +
+      " cannot be written: there is a file of that name which "
+      "is no recording, and is not replaced. Choose another name, or remove it.";
     return false;
   }
+  this->NumberOfTicks = 0;
   this->Bytes.assign(Magic, Magic + MagicSize);
   Put(this->Bytes, RecordSize);
   Put(this->Bytes, header.Rate);
@@ -158,16 +173,25 @@ bool RecordingWriter::Open(
   Put(this->Bytes, header.WorkspaceBounds);
   Put(this->Bytes, header.NumberOfButtons);
   PutChecksum(this->Bytes, 0);
-  return this->Write({}, error);
+  if (!this->File.Open(fileName, error) ||
+    !this->File.Write(this->Bytes.data(), this->Bytes.size(), error) || !this->File.Publish(error))
+  {
+    std::string ignored; // nothing was published
+    this->File.Close(ignored);
+    error = "The recording " + error;
+    return false;
+  }
+  return true;
 }
 
 bool RecordingWriter::Write(const std::vector<RecordedTick>& ticks, std::string& error)
 {
-  if (!this->File)
+  if (!this->File.IsOpen())
   {
     error = "No recording is open. Call Open() first.";
     return false;
   }
+  this->Bytes.clear();
   for (const RecordedTick& tick : ticks)
   {
     const std::size_t begin = this->Bytes.size();
@@ -176,27 +200,36 @@ bool RecordingWriter::Write(const std::vector<RecordedTick>& ticks, std::string&
     Put(this->Bytes, tick.Position);
     Put(this->Bytes, tick.Force);
     Put(this->Bytes, tick.Buttons);
+    Put(this->Bytes, tick.Placements);
+    Put(this->Bytes, tick.Place);
+    Put(this->Bytes, tick.Releases);
+    Put(this->Bytes, tick.Latency);
     PutChecksum(this->Bytes, begin);
   }
-  const bool isWritten =
-    std::fwrite(this->Bytes.data(), 1, this->Bytes.size(), this->File) == this->Bytes.size() &&
-    std::fflush(this->File) == 0;
-  this->Bytes.clear();
+  const auto ticksIn = [](std::uint64_t bytes)
+  { return bytes < HeaderSize ? 0 : (bytes - HeaderSize) / RecordSize; };
+  std::uint64_t bytesLeft = 0;
+  if (!this->File.IsIntact(bytesLeft, error))
+  {
+    this->NumberOfTicks = ticksIn(bytesLeft);
+    error = "The recording " + error + " Choose a name that no other program uses.";
+    return false;
+  }
+  const bool isWritten = this->File.Write(this->Bytes.data(), this->Bytes.size(), error);
+  this->NumberOfTicks = ticksIn(this->File.GetSize());
   if (!isWritten)
   {
-    error = "The recording " + this->FileName + " cannot be written on: " + SystemError() + ".";
+    this->File.Truncate(HeaderSize + this->NumberOfTicks * RecordSize);
+    error = "The recording ends after " + std::to_string(this->NumberOfTicks) + " ticks: " + error;
   }
   return isWritten;
 }
 
 bool RecordingWriter::Close(std::string& error)
 {
-  std::FILE* file = this->File;
-  this->File = nullptr;
-  if (file && std::fclose(file) != 0)
+  if (!this->File.Close(error))
   {
-    error =
-      "The end of the recording " + this->FileName + " was not written: " + SystemError() + ".";
+    error = "The end of the recording " + error;
     return false;
   }
   return true;
@@ -209,6 +242,12 @@ bool ReadRecording(const std::string& fileName, Recording& recording, std::strin
     error = "The recording " + fileName + " " + cause;
     return false;
   };
+  std::error_code none;
+  const std::filesystem::file_status status = std::filesystem::status(fileName, none);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+  {
+    return fail("cannot be read: it is no regular file. Give a file that a servo has recorded.");
+  }
   const auto close = [](std::FILE* file) { std::fclose(file); };
   const std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(fileName.c_str(), "rb"), close);
   if (!file)
@@ -237,10 +276,10 @@ bool ReadRecording(const std::string& fileName, Recording& recording, std::strin
   header.Take(read.Header.Latency);
   header.Take(read.Header.WorkspaceBounds);
   header.Take(read.Header.NumberOfButtons);
-  if (recordSize != RecordSize)
+  if (recordSize != RecordSize && recordSize != OldRecordSize)
   {
     return fail("was made by another version: its records have " + std::to_string(recordSize) +
-      " bytes, not " + std::to_string(RecordSize) + ".");
+      " bytes, not " + std::to_string(RecordSize) + " or " + std::to_string(OldRecordSize) + ".");
   }
   if (!IsUsable(read.Header))
   {
@@ -248,7 +287,7 @@ bool ReadRecording(const std::string& fileName, Recording& recording, std::strin
                 "force, stiffness, damping and latency not below 0. Record it anew.");
   }
 
-  std::array<unsigned char, RecordSize> bytes{};
+  Bytes bytes(recordSize);
   std::size_t size = 0;
   while ((size = std::fread(bytes.data(), 1, bytes.size(), file.get())) == bytes.size() &&
     IsWhole(bytes.data(), bytes.size()))
@@ -260,6 +299,13 @@ bool ReadRecording(const std::string& fileName, Recording& recording, std::strin
     record.Take(tick.Position);
     record.Take(tick.Force);
     record.Take(tick.Buttons);
+    if (recordSize == RecordSize)
+    {
+      record.Take(tick.Placements);
+      record.Take(tick.Place);
+      record.Take(tick.Releases);
+      record.Take(tick.Latency);
+    }
     if (!Follows(tick, read.Ticks))
     {
       return fail("does not go on in time: tick " + std::to_string(tick.Tick) + " at " +

@@ -45,6 +45,10 @@ protected:
     const haptics::RecordedTick& tick = this->Ticks[this->Next > 0 ? this->Next - 1 : 0];
     sample.Position = tick.Position;
     sample.Buttons = tick.Buttons;
+    sample.Placements = tick.Placements;
+    sample.Place = tick.Place;
+    sample.Releases = tick.Releases;
+    sample.Latency = tick.Latency;
     return true;
   }
   void WriteDevice(const std::array<double, 3>&) noexcept override {}

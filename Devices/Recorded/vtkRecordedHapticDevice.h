@@ -2,11 +2,12 @@
  * @class   vtkRecordedHapticDevice
  * @brief   plays back what a hand did: a recording made by vtkHapticServo::SetRecordingFileName()
  *
- * Position and buttons of each tick are given back bit for bit. In virtual time
- * (vtkHapticServo::Step()) the ticks also come at the recorded times, so that the same surfaces,
- * workspace transform, stiffness and safety give the same forces, bit for bit; what was changed
- * while the recording was made, and what a watchdog did then, is not in it. Behind a servo thread
- * the device is where the hand was at the time, between two recorded ticks at the earlier.
+ * Position and buttons of each tick are given back bit for bit, and where the hand
+ * was put down, as a mouse does it, what the device let go of by itself, and how late it was. In
+ * virtual time (vtkHapticServo::Step()) the ticks also come at the recorded times, so that the same
+ * surfaces, workspace transform, stiffness and safety give the same forces, bit for bit; what was
+ * changed while the recording was made, and what a watchdog did then, is not in it. Behind a servo
+ * thread the device is where the hand was at the time, between two recorded ticks at the earlier.
  *
  * After the last tick the hand stays where it was. A new start of the servo starts the recording
  * over. Forces are kept (GetForce()) but move nothing. Limits and workspace are those of the device
@@ -38,7 +39,7 @@ public:
   vtkGetMacro(FileName, std::string);
   ///@}
 
-  /// Reads the whole recording: 72 bytes of memory a tick. False, with the cause in
+  /// Reads the whole recording: 112 bytes of memory a tick. False, with the cause in
   /// GetErrorMessage(), where haptics::ReadRecording() takes none: it cannot be read, is none, has
   /// no whole tick, or its time does not go on.
   bool Open() override;

@@ -18,6 +18,7 @@ public:
   haptics::ServoLoop Loop{ this->Cycle, this->Statistics }; // last: ends before the others
   haptics::ServoSettings Settings;
   std::shared_ptr<haptics::RecordingChannel> Recorder; // null while nothing is recorded
+  bool IsFailureReported = false;                      // of the recorder
   std::shared_ptr<haptics::DeviceChannel> Claimed;     // null while no run has a device
 
   void Unclaim()

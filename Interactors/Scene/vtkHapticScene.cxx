@@ -75,14 +75,7 @@ void vtkHapticScene::NoticePart(vtkObject* part, unsigned long event, const char
   {
     case vtkCommand::ErrorEvent:
       haptics::AppendErrorText(text, report);
-      if (part == this->Servo)
-      {
-        vtkErrorMacro(<< text); // what it means for a call of the scene, that call says
-      }
-      else
-      {
-        this->Fail(text);
-      }
+      this->Fail(text);
       break;
     case vtkCommand::WarningEvent:
       haptics::AppendErrorText(text, report);

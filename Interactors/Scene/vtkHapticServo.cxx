@@ -268,6 +268,7 @@ bool vtkHapticServo::Update()
   // The state is read first, so that the record of an end is there when the state tells of it.
   const int state = static_cast<int>(this->Internal->Cycle.GetState());
   const bool hasTicked = this->Internal->Cycle.UpdateLatest();
+  this->NoticeRecording();
   if (state != Running && state != Stepping)
   {
     // A run that has ended by itself still has its thread, and a watchdog that would halt the

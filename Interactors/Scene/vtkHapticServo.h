@@ -175,17 +175,21 @@ public:
 
   ///@{
   /**
-   * A file to record every tick to, as it happens: position, buttons, force, time. Empty by
-   * default: nothing is recorded. Read by Start() and the first Step(), which replace a file of
-   * that name, and fail where it cannot be written. What vtkRecordedHapticDevice plays back. The
-   * servo thread writes nothing itself; the file is whole after Stop(), or up to 10 ms before a
-   * crash. A disk that fills up is an error, and the servo goes on.
+   * A file to record every tick to, as it happens: what the device reported, and the force. Empty
+   * by default: nothing is recorded. Read by Start() and the first Step(), which replace a
+   * recording of that name, and fail where it cannot be written, holds anything else than a
+   * recording, is no regular file, or is recorded to by another servo. What vtkRecordedHapticDevice
+   * plays back. The servo thread writes nothing itself; the file is whole after Stop(), or up to 10
+   * ms before a crash. Where the disk fills up, or the file is deleted, replaced or cut off
+   * meanwhile, the next Update() reports it (ErrorEvent and GetErrorMessage()); the servo goes on
+   * without recording.
    */
   vtkSetMacro(RecordingFileName, std::string);
   vtkGetMacro(RecordingFileName, std::string);
   ///@}
   ///@{
-  /// Ticks of this run or the last one that are in the file, and that could not be kept for it.
+  /// Ticks of this run or the last one that are in the file, and that are not, or not any more.
+  /// After the run they make up all of its ticks.
   vtkTypeInt64 GetNumberOfRecordedTicks();
   vtkTypeInt64 GetNumberOfUnrecordedTicks();
   ///@}
@@ -322,6 +326,7 @@ private:
   void Fail(const std::string& message);
   bool NoticeState(int state);
   void FinishRecording();
+  void NoticeRecording();
   void CountRecordedTicks();
 
   std::unique_ptr<Internals> Internal;

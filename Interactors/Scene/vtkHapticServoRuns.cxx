@@ -65,6 +65,7 @@ bool vtkHapticServo::Begin(int state)
       return false;
     }
     this->Internal->Recorder = recorder;
+    this->Internal->IsFailureReported = false;
     channel = recorder;
   }
   this->Internal->Cycle.Begin(std::move(channel), static_cast<haptics::ServoState>(state));
@@ -154,6 +155,10 @@ int vtkHapticServo::Step(int n)
       time = static_cast<double>(this->NextStep) * this->StepPeriod;
     }
     const double period = deviceTime ? time - this->LastStepTime : this->StepPeriod;
+    if (this->Internal->Recorder)
+    {
+      this->Internal->Recorder->WaitForRoom();
+    }
     const std::uint64_t before = haptics::MonotonicNow();
     if (!this->Internal->Cycle.Tick(time))
     {
@@ -180,12 +185,23 @@ void vtkHapticServo::FinishRecording()
   if (this->Internal->Recorder)
   {
     std::string error;
-    const bool isWhole = this->Internal->Recorder->Finish(error);
+    this->Internal->Recorder->Finish(error);
     this->CountRecordedTicks();
+    this->NoticeRecording();
     this->Internal->Recorder.reset();
-    if (!isWhole)
+  }
+}
+
+void vtkHapticServo::NoticeRecording()
+{
+  if (this->Internal->Recorder && this->Internal->Recorder->IsHere() &&
+    !this->Internal->IsFailureReported)
+  {
+    const std::string failure = this->Internal->Recorder->GetFailure();
+    if (!failure.empty())
     {
-      this->Fail(error);
+      this->Internal->IsFailureReported = true;
+      this->Fail(failure);
     }
   }
 }

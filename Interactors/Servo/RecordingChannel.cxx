@@ -57,13 +57,35 @@ bool RecordingChannel::Finish(std::string& error)
     this->Ending.notify_one();
     this->Thread.join();
     std::string closing;
-    if (!this->File.Close(closing) && this->Error.empty())
+    if (!this->File.Close(closing) && !this->HasFailed.load())
     {
       this->Error = closing;
+      this->HasFailed.store(true);
     }
   }
-  error = this->Error;
-  return this->Error.empty();
+  error = this->GetFailure();
+  return error.empty();
+}
+
+std::string RecordingChannel::GetFailure() const
+{
+  if (this->HasFailed.load(std::memory_order_acquire))
+  {
+    return this->Error;
+  }
+  const std::uint64_t overflows = this->Overflows.load();
+  return overflows == 0 ? std::string()
+                        : "The recording lacks " + std::to_string(overflows) +
+      " ticks: its disk took no data for longer than can be kept. Choose a file on a faster one.";
+}
+
+void RecordingChannel::WaitForRoom() const
+{
+  while (!this->HasFailed.load(std::memory_order_acquire) &&
+    this->Pushed.load() - this->Drained.load() > TicksKept / 2)
+  {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
 }
 
 bool RecordingChannel::Read(double time, DeviceSample& sample) noexcept
@@ -72,6 +94,10 @@ bool RecordingChannel::Read(double time, DeviceSample& sample) noexcept
   this->Now.Time = time;
   this->Now.Position = sample.Position;
   this->Now.Buttons = sample.Buttons;
+  this->Now.Placements = sample.Placements;
+  this->Now.Place = sample.Place;
+  this->Now.Releases = sample.Releases;
+  this->Now.Latency = sample.Latency;
   return this->HasSample;
 }
 
@@ -84,9 +110,14 @@ void RecordingChannel::Write(const std::array<double, 3>& force) noexcept
     this->HasSample = false;
     this->Now.Force = force;
     this->Now.Tick = this->NextTick++;
-    if (!this->Ring.Push(this->Now))
+    if (this->Ring.Push(this->Now))
+    {
+      this->Pushed.fetch_add(1, std::memory_order_relaxed);
+    }
+    else
     {
       this->Lost.fetch_add(1, std::memory_order_relaxed);
+      this->Overflows.fetch_add(1, std::memory_order_relaxed);
     }
   }
 }
@@ -99,25 +130,33 @@ void RecordingChannel::Run()
   while (!isLast)
   {
     isLast = this->Ending.wait_for(lock, WritingPeriod, [this] { return this->End; });
-    if (!this->Drain())
-    {
-      return; // what comes now is counted as lost once the ring is full
-    }
+    this->Drain();
   }
 }
 
-bool RecordingChannel::Drain()
+void RecordingChannel::Drain()
 {
   this->Ticks.clear();
   for (RecordedTick tick; this->Ticks.size() < TicksKept && this->Ring.Pop(tick);)
   {
     this->Ticks.push_back(tick);
   }
-  if (!this->Ticks.empty() && !this->File.Write(this->Ticks, this->Error))
+  if (this->HasFailed.load())
   {
-    return false;
+    this->Lost.fetch_add(this->Ticks.size());
   }
-  this->Written.fetch_add(this->Ticks.size());
-  return true;
+  else
+  {
+    const std::uint64_t all = this->Written.load() + this->Ticks.size();
+    // Also without a tick: the file may have been taken away meanwhile.
+    const bool isWritten = this->File.Write(this->Ticks, this->Error);
+    this->Written.store(this->File.GetNumberOfTicks());
+    if (!isWritten)
+    {
+      this->Lost.fetch_add(all - this->File.GetNumberOfTicks());
+      this->HasFailed.store(true, std::memory_order_release);
+    }
+  }
+  this->Drained.fetch_add(this->Ticks.size());
 }
 }

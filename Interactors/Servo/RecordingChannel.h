@@ -25,7 +25,9 @@ namespace haptics
 ///                           a thread of its own --> file, every 10 ms
 ///
 /// The servo thread never writes a file and never waits. Ticks that come while the ring is full
-/// (a disk that takes no data for 16 s at 1 kHz) are counted and left out.
+/// (a disk that takes no data for 16 s at 1 kHz) are counted and left out. Where the file takes no
+/// more, or was deleted, replaced or cut off by others, recording ends: ticks that are not in the
+/// file, or not any more, count as lost. After Finish() each tick is either written or lost.
 class VTKHAPTICSSERVO_EXPORT RecordingChannel : public DeviceChannel
 {
 public:
@@ -44,7 +46,14 @@ public:
   bool IsHere() const { return this->Owner.IsHere(); }
   ///@}
   ///@{
-  /// Ticks written to the file, and ticks that could not be kept. Any thread.
+  /// Why ticks were lost; empty while none were. GUI thread.
+  std::string GetFailure() const;
+  /// For a servo in virtual time, which ticks faster than a disk writes: waits until at least half
+  /// of the ring is free, or nothing is written any more. The servo's thread, before a tick.
+  void WaitForRoom() const;
+  ///@}
+  ///@{
+  /// Ticks that are in the file, and ticks that are not. Any thread.
   std::uint64_t GetNumberOfTicks() const noexcept { return this->Written.load(); }
   std::uint64_t GetNumberOfLostTicks() const noexcept { return this->Lost.load(); }
   ///@}
@@ -64,12 +73,16 @@ public:
 
 private:
   void Run();
-  bool Drain();
+  void Drain();
 
   const std::shared_ptr<DeviceChannel> Device;
   RingBuffer<RecordedTick> Ring;
   std::atomic<std::uint64_t> Written{ 0 };
   std::atomic<std::uint64_t> Lost{ 0 };
+  std::atomic<std::uint64_t> Overflows{ 0 }; // those of Lost that found the ring full
+  std::atomic<std::uint64_t> Pushed{ 0 };    // into the ring
+  std::atomic<std::uint64_t> Drained{ 0 };   // of those
+  std::atomic<bool> HasFailed{ false };      // Error is there, and does not change any more
 
   // The servo thread's own.
   RecordedTick Now;

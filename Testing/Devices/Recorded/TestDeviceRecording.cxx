@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -23,7 +24,7 @@ using haptics::RecordingWriter;
 namespace
 {
 constexpr std::size_t HeaderSize = 108;
-constexpr std::size_t RecordSize = 72;
+constexpr std::size_t RecordSize = 112;
 
 /// Three ticks, with numbers that do not survive a detour through text.
 std::vector<RecordedTick> MakeTicks()
@@ -36,6 +37,10 @@ std::vector<RecordedTick> MakeTicks()
     ticks[i].Position = { 0.1 / 3.0, -0.0, std::numeric_limits<double>::denorm_min() };
     ticks[i].Force = { 1e-300, std::nan(""), 2.0 / 3.0 };
     ticks[i].Buttons = 0x80000001U + static_cast<std::uint32_t>(i);
+    ticks[i].Placements = 7 + static_cast<std::uint32_t>(i);
+    ticks[i].Place = { -0.2 / 3.0, 1e300, -0.0 };
+    ticks[i].Releases = 0xffffffffU;
+    ticks[i].Latency = 0.01 / 3.0;
   }
   return ticks;
 }
@@ -99,7 +104,29 @@ TEST(DeviceRecording, ComesBackBitForBit)
     EXPECT_EQ(std::memcmp(&read.Ticks[i].Position, &ticks[i].Position, 24), 0);
     EXPECT_EQ(std::memcmp(&read.Ticks[i].Force, &ticks[i].Force, 24), 0);
     EXPECT_EQ(read.Ticks[i].Buttons, ticks[i].Buttons);
+    EXPECT_EQ(read.Ticks[i].Placements, ticks[i].Placements);
+    EXPECT_EQ(std::memcmp(&read.Ticks[i].Place, &ticks[i].Place, 24), 0);
+    EXPECT_EQ(read.Ticks[i].Releases, ticks[i].Releases);
+    EXPECT_EQ(read.Ticks[i].Latency, ticks[i].Latency);
   }
+}
+
+TEST(DeviceRecording, OfBeforeThereWerePlacementsIsReadWithoutThem)
+{
+  // Written byte by byte by the version that had records of 72 bytes.
+  const char* source = std::getenv("HAPTICS_SOURCE_DIR");
+  ASSERT_TRUE(source) << "set by ctest: the source folder";
+  const std::string name = std::string(source) + "/Testing/Data/StrokeTheRoof.haptic";
+  ASSERT_EQ(Contents(name).size(), HeaderSize + 1000 * 72);
+  Recording read;
+  std::string error;
+  ASSERT_TRUE(ReadRecording(name, read, error)) << error;
+  ASSERT_EQ(read.Ticks.size(), 1000u);
+  EXPECT_EQ(read.Note, "");
+  EXPECT_EQ(read.Ticks.back().Tick, 999u);
+  EXPECT_EQ(read.Ticks.back().Placements, 0u);
+  EXPECT_EQ(read.Ticks.back().Releases, 0u);
+  EXPECT_EQ(read.Ticks.back().Latency, 0.0);
 }
 
 TEST(DeviceRecording, CutOffAnywhereReadsToTheLastWholeTickAndSaysSo)

@@ -1,0 +1,302 @@
+#include "haptics/Devices/OutputFile.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+#include <pthread.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace haptics
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+/// What a chain of links ends with, whether that is there or not.
+fs::path FollowLinks(const fs::path& name)
+{
+  constexpr int longest = 40; // as Linux has it
+  fs::path target = name;
+  std::error_code none;
+  for (int i = 0; i < longest && fs::is_symlink(fs::symlink_status(target, none)); ++i)
+  {
+    const fs::path next = fs::read_symlink(target, none);
+    target = next.is_absolute() ? next : target.parent_path() / next;
+  }
+  return target;
+}
+
+const char* Advice(int cause)
+{
+  switch (cause)
+  {
+    case ENOSPC:
+    case EDQUOT:
+      return "Free some space there, or choose a file on another disk.";
+    case EFBIG:
+      return "Raise the limit on the size of files (ulimit -f), or choose another file system.";
+    case ENOENT:
+    case ENOTDIR:
+      return "Make its folder first, or choose another one.";
+    case EWOULDBLOCK:
+      return "Choose another name, or end what writes it first.";
+    case EISDIR:
+    case EINVAL:
+    case ELOOP:
+    case ENAMETOOLONG:
+      return "Choose another name.";
+    default:
+      return "Choose a folder that you may write to.";
+  }
+}
+
+std::string Cause(int cause)
+{
+  switch (cause)
+  {
+    case EWOULDBLOCK:
+      return "it is being written already, by this program or another one";
+    case EINVAL:
+      return "it is no regular file";
+    default:
+      return std::generic_category().message(cause);
+  }
+}
+
+/// A write beyond the limit on the size of files comes with a signal that ends the process.
+class FileSizeSignalBlock
+{
+public:
+  FileSizeSignalBlock()
+  {
+    sigemptyset(&this->Signals);
+    sigaddset(&this->Signals, SIGXFSZ);
+    pthread_sigmask(SIG_BLOCK, &this->Signals, &this->Before);
+  }
+  ~FileSizeSignalBlock()
+  {
+    if (!sigismember(&this->Before, SIGXFSZ))
+    {
+      const timespec now{};
+      while (this->IsPending() && sigtimedwait(&this->Signals, nullptr, &now) < 0 && errno == EINTR)
+      {
+      }
+      pthread_sigmask(SIG_SETMASK, &this->Before, nullptr);
+    }
+  }
+  FileSizeSignalBlock(const FileSizeSignalBlock&) = delete;
+  FileSizeSignalBlock& operator=(const FileSizeSignalBlock&) = delete;
+
+private:
+  static bool IsPending()
+  {
+    sigset_t pending;
+    sigpending(&pending);
+    return sigismember(&pending, SIGXFSZ) != 0;
+  }
+
+  sigset_t Signals{};
+  sigset_t Before{};
+};
+}
+
+OutputFile::~OutputFile()
+{
+  std::string ignored; // who wants to know calls Close()
+  this->Close(ignored);
+}
+
+bool OutputFile::Fail(int cause, std::string& error)
+{
+  error = this->FileName + " cannot be written: " + Cause(cause) + ". " + Advice(cause);
+  return false;
+}
+
+bool OutputFile::Open(const std::string& fileName, std::string& error)
+{
+  if (!this->Close(error))
+  {
+    return false;
+  }
+  this->FileName = fileName;
+  this->Target = FollowLinks(fileName).string();
+  this->Size = 0;
+  const std::string base = fs::path(this->Target).filename().string();
+  if (base.empty() || base == "." || base == "..")
+  {
+    return this->Fail(this->Target.empty() ? ENOENT : EISDIR, error);
+  }
+  std::error_code none;
+  if (fs::is_symlink(fs::symlink_status(this->Target, none)))
+  {
+    return this->Fail(ELOOP, error);
+  }
+  struct stat present
+  {
+  };
+  const bool isThere = stat(this->Target.c_str(), &present) == 0;
+  if (isThere && !S_ISREG(present.st_mode))
+  {
+    return this->Fail(S_ISDIR(present.st_mode) ? EISDIR : EINVAL, error);
+  }
+  if (isThere && access(this->Target.c_str(), W_OK) != 0)
+  {
+    return this->Fail(errno, error);
+  }
+  if (isThere)
+  {
+    const int old = open(this->Target.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    const bool isBeingWritten =
+      old >= 0 && flock(old, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    if (old >= 0)
+    {
+      close(old);
+    }
+    if (isBeingWritten)
+    {
+      return this->Fail(EWOULDBLOCK, error);
+    }
+  }
+  const mode_t mode = isThere ? present.st_mode & 0777 : 0666;
+  static std::atomic<unsigned> count{ 0 };
+  constexpr std::size_t longestBase = 200; // with what is added a name may have 255 bytes
+  do
+  {
+    this->Partial = (fs::path(this->Target).parent_path() /
+      ("." + base.substr(0, longestBase) + "." + std::to_string(getpid()) + "-" +
+        std::to_string(count++) + ".part"))
+                      .string();
+    this->Descriptor =
+      open(this->Partial.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
+  } while (this->Descriptor < 0 && errno == EEXIST);
+  if (this->Descriptor < 0)
+  {
+    this->Partial.clear();
+    return this->Fail(errno, error);
+  }
+  // Where the system has no locks nothing is lost: IsIntact() notices another writer.
+  (void)flock(this->Descriptor, LOCK_EX | LOCK_NB);
+  if (isThere)
+  {
+    // Only root can give a file away. The mode comes after, as a change of owner changes it.
+    const int given = fchown(this->Descriptor, present.st_uid, present.st_gid);
+    (void)given;
+    if (fchmod(this->Descriptor, present.st_mode & 07777) != 0)
+    {
+      return this->Fail(errno, error);
+    }
+  }
+  return true;
+}
+
+bool OutputFile::Write(const void* bytes, std::size_t size, std::string& error)
+{
+  if (!this->IsOpen())
+  {
+    error = "No file is open to be written. Call Open() first.";
+    return false;
+  }
+  const FileSizeSignalBlock block;
+  const auto* next = static_cast<const unsigned char*>(bytes);
+  while (size > 0)
+  {
+    const ssize_t written = write(this->Descriptor, next, size);
+    if (written < 0 && errno == EINTR)
+    {
+      continue;
+    }
+    if (written <= 0)
+    {
+      return this->Fail(written < 0 ? errno : ENOSPC, error);
+    }
+    next += written;
+    size -= static_cast<std::size_t>(written);
+    this->Size += static_cast<std::uint64_t>(written);
+  }
+  return true;
+}
+
+bool OutputFile::Sync(std::string& error)
+{
+  return fsync(this->Descriptor) == 0 || this->Fail(errno, error);
+}
+
+bool OutputFile::Publish(std::string& error)
+{
+  if (std::rename(this->Partial.c_str(), this->Target.c_str()) != 0)
+  {
+    return this->Fail(errno, error);
+  }
+  this->Partial.clear();
+  return true;
+}
+
+void OutputFile::Truncate(std::uint64_t size)
+{
+  if (size < this->Size && ftruncate(this->Descriptor, static_cast<off_t>(size)) == 0 &&
+    lseek(this->Descriptor, 0, SEEK_END) >= 0)
+  {
+    this->Size = size;
+  }
+}
+
+bool OutputFile::IsIntact(std::uint64_t& bytesLeft, std::string& error) const
+{
+  struct stat own
+  {
+  };
+  struct stat named
+  {
+  };
+  bytesLeft = this->Size;
+  if (fstat(this->Descriptor, &own) != 0)
+  {
+    return true; // nothing is known
+  }
+  const bool isNamed = stat(this->Target.c_str(), &named) == 0;
+  if (!isNamed || named.st_ino != own.st_ino || named.st_dev != own.st_dev)
+  {
+    bytesLeft = 0;
+    error = this->FileName + " was " +
+      (isNamed ? "replaced" : "deleted or moved away") + " while it was written.";
+    return false;
+  }
+  const auto size = static_cast<std::uint64_t>(own.st_size);
+  if (size != this->Size)
+  {
+    bytesLeft = std::min(size, this->Size);
+    error = this->FileName + " was changed by another program while it was written: it has " +
+      std::to_string(size) + " bytes instead of " + std::to_string(this->Size) + ".";
+    return false;
+  }
+  return true;
+}
+
+bool OutputFile::Close(std::string& error)
+{
+  if (!this->IsOpen())
+  {
+    return true;
+  }
+  const bool isPublished = this->Partial.empty();
+  const bool isClosed = close(std::exchange(this->Descriptor, -1)) == 0;
+  const int cause = errno;
+  if (!isPublished)
+  {
+    std::remove(this->Partial.c_str());
+    this->Partial.clear();
+    return true;
+  }
+  return isClosed || this->Fail(cause, error);
+}
+}

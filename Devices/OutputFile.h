@@ -1,0 +1,62 @@
+#ifndef Haptics_OutputFile_h
+#define Haptics_OutputFile_h
+
+#include "vtkHapticsDevicesModule.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace haptics
+{
+/// @brief A file that takes the place of one of its name as a whole, or leaves that as it was.
+///
+/// It is written under another name in the same folder; Publish() gives it its own. Until then, and
+/// where anything fails before, the name has what it had, and nothing else is left. Links are
+/// followed: what they point to is replaced. Mode, owner and group are those of the file that is
+/// replaced, where there is one and the system allows it, or go by the umask.
+///
+/// What is no regular file (a folder, FIFO or device) is refused, so no call waits for another
+/// process; so is a file that another OutputFile, of any process, is still writing. A limit on the
+/// size of files is an error, not a signal. Where a call returns false, `error` names the file and
+/// says why, and what to do. One thread; not the servo's.
+class VTKHAPTICSDEVICES_EXPORT OutputFile
+{
+public:
+  OutputFile() = default;
+  /// Closes; drops what was not published.
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  bool Open(const std::string& fileName, std::string& error);
+  bool IsOpen() const { return this->Descriptor >= 0; }
+  /// Appends bytes, before or after Publish(). After a failure GetSize() bytes are written.
+  bool Write(const void* bytes, std::size_t size, std::string& error);
+  /// Waits until the disk has what was written.
+  bool Sync(std::string& error);
+  /// Puts the file in place of what its name had.
+  bool Publish(std::string& error);
+  /// Bytes that were written.
+  std::uint64_t GetSize() const { return this->Size; }
+  /// Cuts the end off, so that `size` bytes are left.
+  void Truncate(std::uint64_t size);
+  /// Whether the published file is still there as it was written; else what happened to it is in
+  /// `error`, and `bytesLeft` are under its name.
+  bool IsIntact(std::uint64_t& bytesLeft, std::string& error) const;
+  /// Closes a published file, or drops one that was not. False where the system then reports that
+  /// something was not written.
+  bool Close(std::string& error);
+
+private:
+  bool Fail(int cause, std::string& error);
+
+  std::string FileName; // as it was given, for messages
+  std::string Target;   // links followed
+  std::string Partial;  // the name until Publish(); then empty
+  int Descriptor = -1;
+  std::uint64_t Size = 0;
+};
+}
+
+#endif
