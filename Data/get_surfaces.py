@@ -197,8 +197,13 @@ def fetch(surface, folder):
 def write(path, content):
     """Whole or not at all, so that a file that is there can be trusted."""
     partial = path.with_name(path.name + ".partial")
-    partial.write_bytes(content)
-    os.replace(partial, path)
+    try:
+        partial.write_bytes(content)
+        os.replace(partial, path)
+    except OSError as error:
+        partial.unlink(missing_ok=True)
+        raise Unavailable(f"{path} cannot be written: {error.strerror}. Free some space there, or "
+                          "give another folder with --output") from error
 
 
 def get(name, folder):

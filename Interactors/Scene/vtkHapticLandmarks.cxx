@@ -1,5 +1,6 @@
 #include "vtkHapticLandmarks.h"
 
+#include "haptics/Devices/OutputFile.h"
 #include "haptics/Scene/GeodesicPath.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -17,8 +18,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
+#include <locale>
+#include <sstream>
 
 vtkStandardNewMacro(vtkHapticLandmarks);
 
@@ -47,6 +49,13 @@ std::string Quoted(const std::string& text)
     quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   }
   return quoted + "\"";
+}
+
+/// A name or label. A spreadsheet would run what begins as a formula does, so an apostrophe goes
+/// before it, which marks it as text there.
+std::string QuotedText(const std::string& text)
+{
+  return Quoted(text.find_first_of("=+-@\t\r") == 0 ? "'" + text : text);
 }
 
 /// Every component of every array of the landmarks, under its name, each once.
@@ -79,7 +88,9 @@ std::string ValueOf(vtkDataSetAttributes* values, const std::string& column)
       {
         // As many digits as tell every value of its type.
         const int digits = array->GetDataType() == VTK_FLOAT ? 9 : 17;
-        return Quoted(array->GetVariantValue(c).ToString(vtkVariant::DEFAULT_FORMATTING, digits));
+        const std::string value =
+          array->GetVariantValue(c).ToString(vtkVariant::DEFAULT_FORMATTING, digits);
+        return array->IsNumeric() ? Quoted(value) : QuotedText(value);
       }
     }
   }
@@ -277,7 +288,8 @@ vtkPolyData* vtkHapticLandmarks::GetOutput()
 
 bool vtkHapticLandmarks::WriteCSV(const char* file)
 {
-  std::ofstream stream(file ? file : "");
+  std::ostringstream stream;
+  stream.imbue(std::locale::classic());
   std::vector<std::string> columns;
   for (const Landmark& landmark : this->Landmarks)
   {
@@ -297,7 +309,7 @@ bool vtkHapticLandmarks::WriteCSV(const char* file)
   stream << "label,x,y,z,surface,cell,point_0,point_1,point_2,weight_0,weight_1,weight_2";
   for (const std::string& column : columns)
   {
-    stream << "," << Quoted(column);
+    stream << "," << QuotedText(column);
   }
   stream << "\r\n";
   stream.precision(std::numeric_limits<double>::max_digits10);
@@ -305,7 +317,7 @@ bool vtkHapticLandmarks::WriteCSV(const char* file)
   {
     vtkHapticProbe* probe = landmark.Probe;
     const double* p = probe->GetPosition();
-    stream << Quoted(landmark.Label) << "," << p[0] << "," << p[1] << "," << p[2] << ","
+    stream << QuotedText(landmark.Label) << "," << p[0] << "," << p[1] << "," << p[2] << ","
            << probe->GetSurface() << "," << probe->GetCell();
     for (int i = 0; i < 3; ++i)
     {
@@ -322,11 +334,13 @@ bool vtkHapticLandmarks::WriteCSV(const char* file)
     }
     stream << "\r\n";
   }
-  stream.close();
-  if (!stream)
+  const std::string text = stream.str();
+  haptics::OutputFile output;
+  std::string error;
+  if (!output.Open(file ? file : "", error) || !output.Write(text.data(), text.size(), error) ||
+    !output.Sync(error) || !output.Publish(error) || !output.Close(error))
   {
-    vtkErrorMacro("The landmarks could not be written to "
-      << (file ? file : "(no name)") << ". Check that the folder exists and may be written to.");
+    vtkErrorMacro("The landmarks' file " << error);
     return false;
   }
   return true;

@@ -73,7 +73,9 @@ public:
   vtkPolyData* GetOutput();
   /**
    * Writes a table: label, x, y, z, surface, cell, point_0..2, weight_0..2 and a column for each
-   * array value. False and an error where the file cannot be written.
+   * array value. Names and labels that a spreadsheet would run as a formula (=, +, - or @ first)
+   * get an apostrophe before them. Replaces a file of that name as a whole; false and an error
+   * where it cannot be written, and then the old one stays.
    */
   bool WriteCSV(const char* file);
 

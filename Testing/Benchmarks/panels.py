@@ -4,6 +4,8 @@ Logarithms are taken here and the ticks are set here, so that a chart looks alik
 """
 
 import math
+import pathlib
+import sys
 
 import vtkmodules.vtkRenderingContextOpenGL2  # noqa: F401  (registers the 2D painter)
 import vtkmodules.vtkRenderingFreeType  # noqa: F401  (registers the fonts)
@@ -11,7 +13,6 @@ import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  (registers the render windo
 from vtkmodules.vtkChartsCore import vtkAxis, vtkChart, vtkChartLegend, vtkChartXY
 from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkRectf, vtkTable
-from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingContext2D import vtkContextActor, vtkPen
 from vtkmodules.vtkRenderingCore import (
     vtkRenderer,
@@ -19,6 +20,10 @@ from vtkmodules.vtkRenderingCore import (
     vtkTextActor,
     vtkWindowToImageFilter,
 )
+
+# Needs no build.
+sys.path.append(str(pathlib.Path(__file__).parents[2] / "Interactors/Python/vtkhaptics"))
+from output import write_png  # noqa: E402
 
 INK = (40, 40, 40)
 GRID = (225, 225, 225)
@@ -168,11 +173,10 @@ def draw(panels, file, width, height, shares=None):
         for note in panel.actors():
             renderer.AddViewProp(note)
     window.Render()
-    image, writer = vtkWindowToImageFilter(), vtkPNGWriter()
+    image = vtkWindowToImageFilter()
     image.SetInput(window)
     image.SetInputBufferTypeToRGB()
     image.ReadFrontBufferOff()
-    writer.SetInputConnection(image.GetOutputPort())
-    writer.SetFileName(str(file))
-    writer.Write()
+    image.Update()
+    write_png(file, image.GetOutput())
     window.Finalize()

@@ -15,6 +15,7 @@ import sys
 import time
 
 from vtkhaptics import vtkHapticScene, vtkHapticView, vtkSimulatedHapticDevice
+from vtkhaptics.output import whole_file
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkmodules.vtkRenderingCore import (
     vtkActor,
@@ -128,7 +129,7 @@ def main():
     for row in [COLUMNS, *rows]:
         print("  ".join(str(value).rjust(width) for value, width in zip(row, widths)))
     if options.csv:
-        with open(options.csv, "w", newline="", encoding="utf-8") as file:
+        with whole_file(options.csv, text=True) as file:
             csv.writer(file).writerows([COLUMNS, *rows])
 
 

@@ -298,6 +298,36 @@ TEST(HapticLandmarks, DropListUndoAndExport)
   EXPECT_EQ(errors.Count, 2);
 }
 
+TEST(SceneEvents, ATableOfLandmarksHoldsNoFormulas)
+{
+  LedHand hand;
+  const auto table = MakeTable(0.0);
+  vtkNew<vtkDoubleArray> values;
+  values->SetName("=HYPERLINK(A1)");
+  values->SetNumberOfValues(table->GetNumberOfPoints());
+  values->FillValue(-1.5);
+  table->GetPointData()->AddArray(values);
+  vtkNew<vtkStringArray> parts;
+  parts->SetName("+part");
+  parts->InsertNextValue("-1+1");
+  table->GetCellData()->AddArray(parts);
+  hand.Scene->AddSurface(table);
+  hand.MoveTo(0.01);
+  hand.MoveTo(-0.005);
+  vtkHapticLandmarks* marks = hand.Scene->GetLandmarks();
+  ASSERT_EQ(hand.Scene->DropLandmark(), 0);
+  marks->SetLabel(0, "@SUM(1)");
+  ASSERT_TRUE(marks->WriteCSV("formulas.csv"));
+  std::ifstream file("formulas.csv");
+  std::stringstream text;
+  text << file.rdbuf();
+  std::remove("formulas.csv");
+  EXPECT_NE(text.str().find(",'=HYPERLINK(A1),'+part\r\n'@SUM(1),"), std::string::npos)
+    << text.str();
+  EXPECT_NE(text.str().find(",-1.5,'-1+1\r\n"), std::string::npos)
+    << "numbers stay: " << text.str();
+}
+
 TEST(HapticLandmarks, TheWayAlongASphereIsTheGreatCircle)
 {
   LedHand hand;

@@ -20,7 +20,7 @@ from vtkmodules.vtkCommonDataModel import (
     vtkTable,
 )
 from vtkmodules.vtkFiltersCore import vtkTubeFilter
-from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 from vtkmodules.vtkRenderingCore import (
     vtkActor,
     vtkPolyDataMapper,
@@ -30,6 +30,7 @@ from vtkmodules.vtkRenderingCore import (
 
 from vtkhaptics import vtkGodObjectFilter, vtkGodObjectTrace, vtkHapticProperties
 from vtkhaptics.display import ensure_script_display
+from vtkhaptics.output import write_png, write_polydata
 from vtkhaptics.stroke import View
 
 POINTS = vtkDataObject.FIELD_ASSOCIATION_POINTS
@@ -105,14 +106,10 @@ assert np.ptp(stiffness[touching]) > 50.0, "the thickness is felt"
 assert energy[-1] > 0.0, "friction takes, and nothing gives"
 
 if len(sys.argv) > 3:
-    writer = vtkXMLPolyDataWriter()
-    writer.SetFileName(sys.argv[3])
-    writer.SetInputData(felt)
-    writer.Write()
+    write_polydata(sys.argv[3], felt, inputs=[name])
 
 if len(sys.argv) > 2:
     from vtkmodules.vtkChartsCore import vtkChart, vtkChartXY
-    from vtkmodules.vtkIOImage import vtkPNGWriter
     from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
     from vtkmodules.vtkRenderingContext2D import vtkContextActor
     import vtkmodules.vtkRenderingContextOpenGL2  # noqa: F401  (registers what draws charts)
@@ -196,8 +193,6 @@ if len(sys.argv) > 2:
     picture = vtkWindowToImageFilter()
     picture.SetInput(window)
     picture.ReadFrontBufferOff()
-    png = vtkPNGWriter()
-    png.SetFileName(sys.argv[2])
-    png.SetInputConnection(picture.GetOutputPort())
-    png.Write()
+    picture.Update()
+    write_png(sys.argv[2], picture.GetOutput(), inputs=[name])
     print(f"picture: {sys.argv[2]}")

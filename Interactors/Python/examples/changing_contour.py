@@ -16,6 +16,7 @@ from vtkmodules.vtkFiltersCore import vtkFlyingEdges3D
 
 from vtkhaptics import vtkHapticScene, vtkHapticView, vtkSimulatedHapticDevice
 from vtkhaptics.display import ensure_script_display
+from vtkhaptics.output import whole_file
 
 if len(sys.argv) > 1:
     ensure_script_display()  # it draws
@@ -116,7 +117,10 @@ def draw_loop(path):
     # One choice of colours for all, so that what stands still does not flicker.
     colors = Image.fromarray(np.concatenate(frames[::8])).quantize(96)
     frames = [Image.fromarray(f).quantize(palette=colors, dither=Image.Dither.NONE) for f in frames]
-    frames[0].save(path, save_all=True, append_images=frames[1:], duration=TICKS, loop=0)
+    with whole_file(path) as file:
+        frames[0].save(
+            file, "GIF", save_all=True, append_images=frames[1:], duration=TICKS, loop=0
+        )
     print(f"picture: {path}")
 
 

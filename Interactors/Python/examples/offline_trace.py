@@ -14,6 +14,7 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 
 from vtkhaptics import vtkGodObjectTrace
+from vtkhaptics.output import whole_file
 
 sphere = vtkSphereSource()
 sphere.SetRadius(0.05)  # [m]
@@ -58,6 +59,7 @@ side.legend()
 felt.plot(1e3 * hand[:, 0], force, color="firebrick")
 felt.set(xlabel="x [mm]", ylabel="force [N]")
 picture = sys.argv[1] if len(sys.argv) > 1 else os.path.join(tempfile.mkdtemp(), "trace.png")
-figure.savefig(picture)
+with whole_file(picture) as file:
+    figure.savefig(file, format="png")
 print(f"{picture}: {os.path.getsize(picture)} bytes")
 assert os.path.getsize(picture) > 10000

@@ -10,6 +10,7 @@ import tempfile
 import numpy as np
 import vtkhaptics
 from vtkhaptics.figures import lines
+from vtkhaptics.output import text_cell, whole_file
 from vtkhaptics.surfaces import value_arrays
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
@@ -49,8 +50,9 @@ for stroke in range(30):  # down to 2 mm below the surface, and 10 mm along it
         cell = [stroke, tick, t.magnitude[tick], t.cell[tick]]
         rows.append(cell + [array.GetComponent(near, 0) for array in values.values()])
 folder = sys.argv[2] if len(sys.argv) > 2 else tempfile.mkdtemp()
-names = ",".join(["stroke", "tick", "force", "cell", *values])
-np.savetxt(os.path.join(folder, "palpation.csv"), rows, "%.9g", ",", header=names, comments="")
+names = ",".join(["stroke", "tick", "force", "cell", *map(text_cell, values)])
+with whole_file(os.path.join(folder, "palpation.csv")) as file:
+    np.savetxt(file, rows, "%.9g", ",", header=names, comments="")
 print(f"{len(rows)} ticks in contact, up to {np.max(forces):.2f} N: {folder}/palpation.csv")
 assert np.min(np.max(forces, axis=1)) > 0.05, "every stroke touches"
 lines(os.path.join(folder, "palpation.png"), "tick", "force [N]", forces)

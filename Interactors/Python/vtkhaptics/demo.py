@@ -13,14 +13,14 @@ import numpy as np
 from vtkmodules.util.misc import calldata_type
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.util.vtkConstants import VTK_INT
-from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 from vtkmodules.vtkRenderingCore import vtkRenderWindowInteractor
 
 from . import vtkGodObjectActor, vtkHapticScene, vtkInteractorStyleHaptic, vtkSimulatedHapticDevice
 from .display import DisplayError, ensure_display
 from .errors import HapticsError
 from .interrupt import EXIT_INTERRUPTED, Interrupts
-from .picture import OutputError, Picture, add_hand, stroke_lines, write_atomically
+from .output import OutputError, check_outputs, write_polydata
+from .picture import Picture, add_hand, stroke_lines
 from .stroke import StrokeError, in_device_frame, plan_stroke
 from .surfaces import READERS, SurfaceError, read_surface
 
@@ -226,6 +226,7 @@ def run(options, interrupts):
         raise OutputError(
             f"{options.output}: cannot be made a folder ({error.strerror}). Choose another."
         ) from error
+    check_outputs(output_files(options), [options.surface])
     name = os.path.basename(options.surface)
     print(f"surface: {name}, {surface.GetNumberOfCells()} cells", flush=True)
 
@@ -247,6 +248,11 @@ def run(options, interrupts):
     touch(scene, picture, options, window, interrupts, write)
 
 
+def output_files(options):
+    """The files that trace and picture are written to."""
+    return [os.path.join(options.output, name) for name in ("trace.vtp", "touched.png")]
+
+
 def report(options, scene, picture):
     """Prints the table and writes trace and picture; the share of ticks in contact."""
     trace = scene.GetTrace()
@@ -260,14 +266,11 @@ def report(options, scene, picture):
     if note:
         print("  note: " + note)
 
-    trace_file = os.path.join(options.output, "trace.vtp")
-    picture_file = os.path.join(options.output, "touched.png")
-    writer = vtkXMLPolyDataWriter()
-    writer.SetDataModeToBinary()  # see surfaces.py: not every VTK reads appended data
-    write_atomically(trace_file, trace, writer)
+    trace_file, picture_file = output_files(options)
+    write_polydata(trace_file, trace, [options.surface])
     picture.add_stroke(stroke_lines(trace), picture.world_size(0.0035), strongest)
     add_hand(picture, vtkGodObjectActor(), trace)
-    picture.save(picture_file)
+    picture.save(picture_file, [options.surface])
     print(f"picture: {picture_file}\ntrace:   {trace_file}", flush=True)
     return contact
 

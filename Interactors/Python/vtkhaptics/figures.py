@@ -1,9 +1,14 @@
 """Draws curves into a file by matplotlib, where it is installed: for examples and studies."""
 
+import os
+
+from .output import whole_file
+
 
 def lines(path, x_label, y_label, curves, names=()):
     """Draws `curves`, a sequence of (n,) arrays over their indices, into a picture file, without a
-    display. Prints where the picture is, or that there is none without matplotlib."""
+    display. Prints where the picture is, or that there is none without matplotlib. Raises
+    output.OutputError where it cannot be written."""
     try:
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
@@ -17,5 +22,7 @@ def lines(path, x_label, y_label, curves, names=()):
     axes.set(xlabel=x_label, ylabel=y_label)
     if names:
         axes.legend(names)
-    FigureCanvasAgg(figure).print_figure(path, dpi=120)
+    with whole_file(path) as file:
+        kind = os.path.splitext(path)[1].lstrip(".") or "png"
+        FigureCanvasAgg(figure).print_figure(file, dpi=120, format=kind)
     print(f"picture: {path}")

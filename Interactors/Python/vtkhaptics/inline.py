@@ -6,10 +6,9 @@ import sys
 import tempfile
 from typing import Any, Optional
 
-from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
-
 from .errors import HapticsError
 from .meshes import polydata
+from .output import write_bytes, write_polydata
 
 
 class Picture:
@@ -22,9 +21,8 @@ class Picture:
         return self.png
 
     def save(self, path: Any) -> None:
-        """Writes it to a file."""
-        with open(path, "wb") as file:
-            file.write(self.png)
+        """Writes it to a file, whole or not at all. Raises OutputError, which is an OSError."""
+        write_bytes(path, self.png)
 
 
 def picture_of(
@@ -46,11 +44,11 @@ def picture_of(
     """
     with tempfile.TemporaryDirectory() as folder:
         files = [os.path.join(folder, name) for name in ("surface.vtp", "trace.vtp", "picture.png")]
-        _write(files[0], polydata(surface))
+        write_polydata(files[0], polydata(surface))
         command = [sys.executable, "-m", "vtkhaptics", files[0], "--offscreen"]
         command += ["--screenshot", files[2], "--size", *map(str, size)]
         if trace is not None:
-            _write(files[1], trace.polydata)
+            write_polydata(files[1], trace.polydata)
             seconds = float(trace.time[-1] - trace.time[0])
             command += ["--device", files[1], "--seconds", str(min(max(0.7 * seconds, 2.0), 600.0))]
         if scalars:
@@ -60,12 +58,3 @@ def picture_of(
             raise HapticsError(f"there is no picture: {done.stderr.strip() or done.stdout.strip()}")
         with open(files[2], "rb") as file:
             return Picture(file.read())
-
-
-def _write(path, data):
-    writer = vtkXMLPolyDataWriter()
-    writer.SetDataModeToBinary()  # see surfaces.py: not every VTK reads appended data
-    writer.SetInputData(data)
-    writer.SetFileName(path)
-    if not writer.Write():
-        raise HapticsError(f"{path} cannot be written.")

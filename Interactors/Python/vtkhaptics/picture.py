@@ -1,8 +1,6 @@
 """Draws a touched surface: the surface well lit, the stroke over it coloured by force, the hand."""
 
 import math
-import os
-import tempfile
 
 import numpy as np
 import vtkmodules.vtkInteractionStyle  # noqa: F401  (registers the interactors)
@@ -12,7 +10,6 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkPolyDataNormals, vtkTubeFilter
-from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkImagingCore import vtkImageResize
 from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
 from vtkmodules.vtkRenderingCore import (
@@ -25,14 +22,11 @@ from vtkmodules.vtkRenderingCore import (
     vtkWindowToImageFilter,
 )
 
+from .output import write_png
 from .surfaces import SurfaceError
 
 SIZE = (1200, 800)
 BACKGROUND = ((0.93, 0.94, 0.96), (0.66, 0.71, 0.78))
-
-
-class OutputError(Exception):
-    """What could not be written, where, and what to do; for people."""
 
 
 def surface_actor(surface, color=(0.74, 0.80, 0.86)):
@@ -73,17 +67,6 @@ def add_lights(renderer):
         renderer.AddLight(light)
 
 
-def check_writable(path):
-    """Raises OutputError where a file could not be written."""
-    folder = os.path.dirname(os.path.abspath(path))
-    if not os.path.isdir(folder):
-        raise OutputError(f"{path}: could not be written: there is no folder {folder}. Make it first.")
-    if not os.access(folder, os.W_OK) or (os.path.exists(path) and not os.access(path, os.W_OK)):
-        raise OutputError(f"{path}: could not be written: no permission. Choose another place.")
-    if os.path.isdir(path):
-        raise OutputError(f"{path}: could not be written: it is a folder. Choose a file's name.")
-
-
 def smooth_edges(renderer, window):
     """Smooths edges in a pass over the finished picture. Several samples a pixel, which VTK takes
     by default, make a picture drawn without a graphics card five to eight times as slow."""
@@ -91,10 +74,11 @@ def smooth_edges(renderer, window):
     renderer.UseFXAAOn()
 
 
-def save_window(window, path, scale=2):
+def save_window(window, path, scale=2, inputs=()):
     """Writes a PNG of a window, drawn at a multiple of its size and averaged down for clean edges.
 
-    With what is drawn over the picture in pixels use a scale of 1."""
+    With what is drawn over the picture in pixels use a scale of 1. Raises output.OutputError where
+    it cannot be written or is one of the files `inputs`."""
     window.Render()
     shot = vtkWindowToImageFilter()
     shot.SetInput(window)
@@ -104,7 +88,7 @@ def save_window(window, path, scale=2):
     resize.SetInputConnection(shot.GetOutputPort())
     resize.SetOutputDimensions(*window.GetSize(), 1)
     resize.Update()
-    write_atomically(path, resize.GetOutput(), vtkPNGWriter())
+    write_png(path, resize.GetOutput(), inputs)
 
 
 def fill_view(camera, points, out, up, aspect, margin=1.12):
@@ -224,9 +208,9 @@ class Picture:
         half = math.tan(math.radians(0.5 * camera.GetViewAngle()))
         return share_of_height * 2.0 * camera.GetDistance() * half
 
-    def save(self, path):
-        """Writes a PNG."""
-        save_window(self.window, path)
+    def save(self, path, inputs=()):
+        """Writes a PNG, as save_window() does."""
+        save_window(self.window, path, inputs=inputs)
 
 
 def _force_colors(strongest):
@@ -302,23 +286,3 @@ def add_hand(picture, actor, trace):
         picture.renderer.AddViewProp(actor)
     picture.renderer.ResetCameraClippingRange()
     actor.IncludeInClippingRange(picture.renderer)
-
-
-def write_atomically(path, data, writer):
-    """Writes a file as a whole or not at all. Raises OutputError where it cannot be written."""
-    folder = os.path.dirname(os.path.abspath(path))
-    try:
-        handle, temporary = tempfile.mkstemp(suffix=os.path.splitext(path)[1], dir=folder)
-    except OSError as error:
-        raise OutputError(
-            f"{path}: could not be written ({error.strerror}). Choose another folder."
-        ) from error
-    os.close(handle)
-    writer.SetInputData(data)
-    writer.SetFileName(temporary)
-    writer.Write()
-    if writer.GetErrorCode() or os.path.getsize(temporary) == 0:
-        os.remove(temporary)
-        raise OutputError(f"{path}: could not be written. Check the space left on the disk.")
-    os.chmod(temporary, 0o644)
-    os.replace(temporary, path)

@@ -13,6 +13,7 @@ from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm, vtkAlgorithmOutput
 from .classes import CLASSES
 from .errors import HapticsWarning
 from .meshes import points, polydata
+from .output import text_cell, whole_file
 from .units import metres
 
 # [m]: what is larger or smaller is not meant to be in metres, as in vtkGodObjectTrace.
@@ -101,7 +102,10 @@ def trace(
     filter_.Update()
     if scale is None:
         _warn_of_size(filter_.GetInputDataObject(1, 0), unit_length)
-    return Trace(filter_.GetOutput(), period)
+    felt = Trace(filter_.GetOutput(), period)
+    if isinstance(surface, (str, os.PathLike)):
+        felt._inputs = [os.fspath(surface)]
+    return felt
 
 
 def _warn_of_size(surface, unit_length):
@@ -161,6 +165,7 @@ class Trace:
     def __init__(self, polydata: Any, period: float = 0.001) -> None:
         self.polydata = polydata
         self._period = period
+        self._inputs: list[str] = []  # files that it was made of
 
     def __len__(self) -> int:
         return self.polydata.GetNumberOfPoints()
@@ -266,16 +271,13 @@ class Trace:
 
     def to_csv(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """Writes :meth:`columns` as CSV, a line with the names first; numbers in full precision.
-        Replaces the file only once all is written."""
-        path = os.fspath(path)
+
+        A name that a spreadsheet would run as a formula (=, +, - or @ first) gets an apostrophe before
+        it. Replaces a file of that name as a whole. Raises output.OutputError, which is an OSError,
+        where it cannot be written or is the file that the surface was read from; then the file that
+        was there stays."""
         columns = self.columns()
-        unfinished = path + ".part"
-        try:
-            with open(unfinished, "w", newline="", encoding="utf-8") as file:
-                writer = csv.writer(file, lineterminator="\n")
-                writer.writerow(columns)
-                writer.writerows(zip(*(values.tolist() for values in columns.values())))
-            os.replace(unfinished, path)
-        finally:
-            if os.path.exists(unfinished):
-                os.remove(unfinished)
+        with whole_file(path, self._inputs, text=True) as file:
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(map(text_cell, columns))
+            writer.writerows(zip(*(values.tolist() for values in columns.values())))

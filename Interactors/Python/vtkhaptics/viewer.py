@@ -12,7 +12,6 @@ import numpy as np
 import vtkmodules.vtkRenderingFreeType  # noqa: F401  (registers the text renderer)
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkDataObject
-from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 from vtkmodules.vtkInteractionStyle import vtkInteractorStyleTrackballCamera
 from vtkmodules.vtkRenderingCore import (
     vtkActor,
@@ -36,16 +35,14 @@ from .detail import DetailSwitch
 from .display import DisplayError, ensure_display
 from .errors import HapticsError
 from .interrupt import EXIT_INTERRUPTED, Interrupts
+from .output import OutputError, check_outputs, write_polydata
 from .picture import (
     BACKGROUND,
-    OutputError,
     add_lights,
-    check_writable,
     fill_view,
     save_window,
     smooth_edges,
     surface_actor,
-    write_atomically,
 )
 from .progress import PATIENCE, ProgressBar
 from .recording import RecordingError, read_recording
@@ -360,27 +357,35 @@ class Viewer:
     def _finish(self):
         self.scene.StopRecording()
         self.detail.set_live(False)
+        inputs = input_files(self.options)
+        check_outputs(output_files(self.options), inputs)  # others may have moved files meanwhile
         if self.options.screenshot:
             self.renderer.ResetCameraClippingRange()
             self.hand.IncludeInClippingRange(self.renderer)
-            save_window(self.window, self.options.screenshot, scale=1)
+            save_window(self.window, self.options.screenshot, scale=1, inputs=inputs)
             print(f"picture: {self.options.screenshot}")
         if self.options.trace:
-            writer = vtkXMLPolyDataWriter()
-            writer.SetDataModeToBinary()  # see surfaces.py: not every VTK reads appended data
-            write_atomically(self.options.trace, self.scene.GetTrace(), writer)
+            write_polydata(self.options.trace, self.scene.GetTrace(), inputs)
             print(f"trace:   {self.options.trace}")
         if self.options.landmarks:
-            if not self.scene.GetLandmarks().WriteCSV(self.options.landmarks):
-                raise OutputError(f"{self.options.landmarks}: could not be written.")
+            self.scene.GetLandmarks().WriteCSV(self.options.landmarks)  # raises HapticsError
             print(f"landmarks: {self.options.landmarks}")
+
+
+def input_files(options):
+    """The files that are read."""
+    files = [*options.surfaces, options.device, options.firmware]
+    return [file for file in files if file and os.path.exists(file)]
+
+
+def output_files(options):
+    """The files that are asked for."""
+    return [file for file in (options.screenshot, options.trace, options.landmarks) if file]
 
 
 def run(options, interrupts):
     """Shows and touches the surfaces as the options say."""
-    for path in (options.screenshot, options.trace, options.landmarks):
-        if path:
-            check_writable(path)  # not after the session, which would be lost
+    check_outputs(output_files(options), input_files(options))  # before a session would be lost
     viewer = Viewer(options, interrupts)
     viewer.add_surfaces()
     viewer.open()
