@@ -7,7 +7,9 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
+#include <system_error>
 
 namespace haptics
 {
@@ -121,13 +123,21 @@ void PrepareExchange(FalconUsb& usb)
 
 std::vector<std::uint8_t> ReadFirmwareFile(const std::string& path)
 {
+  std::error_code none;
+  const std::filesystem::file_status status = std::filesystem::status(path, none);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+  {
+    // To open a FIFO would wait for who writes it.
+    throw FalconFault("The firmware file " + path +
+      " is no regular file. Set FirmwareFile to the image that came with the device.");
+  }
   std::ifstream file(path, std::ios::binary);
   if (!file)
   {
     throw FalconFault("The firmware file " + path + " cannot be opened: " + std::strerror(errno) +
       ". Set FirmwareFile to the image that came with the device.");
   }
-  // No more is read than tells that it is too large: files such as /dev/zero have no end.
+  // No more is read than tells that it is too large.
   std::vector<std::uint8_t> bytes(LargestFirmware + 1);
   file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   bytes.resize(static_cast<std::size_t>(file.gcount()));

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <fstream>
 
+#include <sys/stat.h>
+
 namespace
 {
 /// A firmware file that is gone with the test.
@@ -225,6 +227,25 @@ TEST_F(FalconBringUp, NamesAFileThatCannotBeReadOrIsNone)
   ASSERT_TRUE(this->Run(
     [&] { return Contains(this->Device->GetErrorMessage(), "it holds more than 1048576 bytes"); }))
     << this->Device->GetErrorMessage();
+}
+
+TEST_F(FalconBringUp, NeverWaitsForAFirmwareFileThatIsAFifoOrEndless)
+{
+  const FirmwareFile file(500);
+  const std::string fifo = file.Path + ".fifo";
+  ASSERT_EQ(mkfifo(fifo.c_str(), 0600), 0); // nobody will ever write it
+  this->Bus.Plug(1, WithoutFirmware(file));
+  for (const std::string& path : { fifo, std::string("/dev/zero") })
+  {
+    this->Device->SetFirmwareFile(path.c_str());
+    this->Device->Open();
+    ASSERT_TRUE(
+      this->Run([&] { return Contains(this->Device->GetErrorMessage(), "no regular file"); }))
+      << this->Device->GetErrorMessage();
+    EXPECT_TRUE(Contains(this->Device->GetErrorMessage(), path));
+    this->Device->Close();
+  }
+  std::remove(fifo.c_str());
 }
 
 TEST_F(FalconBringUp, MayBeClosedInTheMiddleOfAnUploadAndOpenedAgain)
