@@ -2,7 +2,9 @@
 
 #include "haptics/Math/Vec3Operations.h"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 namespace haptics
@@ -69,12 +71,18 @@ bool PolygonSplitter::Project(const std::vector<Vec3>& corners)
     std::swap(x, y);
   }
   this->Corners.resize(count);
+  CornerGrid::Place low{ corners[0][x], corners[0][y] };
+  CornerGrid::Place high = low;
   for (int i = 0; i < count; ++i)
   {
     this->Corners[i] = { corners[i][x], corners[i][y], (i + count - 1) % count, (i + 1) % count,
-      0.0, 0, false };
+      0.0, 1, false, None, None, None, None };
+    low = { std::min(low[0], corners[i][x]), std::min(low[1], corners[i][y]) };
+    high = { std::max(high[0], corners[i][x]), std::max(high[1], corners[i][y]) };
   }
-  this->First = 0;
+  this->Grid.Restart(count, low, high);
+  this->Ears.clear();
+  this->Straight.clear();
   return normal[drop] != 0.0;
 }
 
@@ -102,47 +110,162 @@ bool PolygonSplitter::Holds(int a, int b, int c, int point) const
     this->Turn(c, a, point) >= 0;
 }
 
-void PolygonSplitter::Judge(int corner, const std::vector<Vec3>& corners)
+/// A corner in the way of the ear at `corner`, or None. `likely`: one to try first, or None.
+int PolygonSplitter::FindBlocker(int corner, int likely) const
 {
-  Corner& tip = this->Corners[corner];
-  tip.Diagonal = SquaredNorm(Minus(corners[tip.Next], corners[tip.Previous]));
-  tip.Ear = tip.Turn > 0;
-  // Only corners that are not convex can lie inside an ear.
-  for (int i = this->Corners[tip.Next].Next; tip.Ear && i != tip.Previous;
-       i = this->Corners[i].Next)
+  const int before = this->Corners[corner].Previous;
+  const int after = this->Corners[corner].Next;
+  const auto isInTheWay = [&](int i)
+  { return i != before && i != corner && i != after && this->Holds(before, corner, after, i); };
+  for (const int i : { likely, this->Corners[after].Next, this->Corners[before].Previous })
   {
-    tip.Ear = this->Corners[i].Turn > 0 || !this->Holds(tip.Previous, corner, tip.Next, i);
-  }
-}
-
-int PolygonSplitter::BestEar() const
-{
-  int best = -1;
-  int i = this->First;
-  do
-  {
-    if (this->Corners[i].Ear &&
-      (best < 0 || this->Corners[i].Diagonal < this->Corners[best].Diagonal))
-    {
-      best = i;
-    }
-    i = this->Corners[i].Next;
-  } while (i != this->First);
-  return best;
-}
-
-int PolygonSplitter::AnyStraight() const
-{
-  int i = this->First;
-  do
-  {
-    if (this->Corners[i].Turn == 0)
+    if (i != None && this->Grid.Has(i) && isInTheWay(i))
     {
       return i;
     }
-    i = this->Corners[i].Next;
-  } while (i != this->First);
-  return -1;
+  }
+  const auto place = [this](int i) {
+    return CornerGrid::Place{ this->Corners[i].X, this->Corners[i].Y };
+  };
+  return this->Grid.Find(place(before), place(corner), place(after), isInTheWay);
+}
+
+void PolygonSplitter::SetTurn(int corner)
+{
+  Corner& tip = this->Corners[corner];
+  tip.Turn = this->Turn(tip.Previous, corner, tip.Next);
+  tip.Diagonal = SquaredNorm(Minus((*this->Given)[tip.Next], (*this->Given)[tip.Previous]));
+  if (tip.Turn == 0)
+  {
+    this->Straight.push_back(corner);
+  }
+  const bool isInTheWay = tip.Turn <= 0;
+  if (isInTheWay && !this->Grid.Has(corner))
+  {
+    this->Grid.Insert(corner, { tip.X, tip.Y });
+  }
+  else if (!isInTheWay && this->Grid.Has(corner))
+  {
+    this->Grid.Remove(corner);
+    this->FreeWaiting(corner);
+  }
+}
+
+void PolygonSplitter::Judge(int corner)
+{
+  Corner& tip = this->Corners[corner];
+  const int likely = tip.Blocker;
+  this->StopWaiting(corner);
+  const int blocker = tip.Turn > 0 ? this->FindBlocker(corner, likely) : None;
+  tip.IsEar = tip.Turn > 0 && blocker == None;
+  if (tip.IsEar)
+  {
+    this->Ears.emplace_back(tip.Diagonal, corner);
+    std::push_heap(this->Ears.begin(), this->Ears.end(), std::greater<>());
+  }
+  else if (blocker != None)
+  {
+    this->Wait(corner, blocker);
+  }
+}
+
+void PolygonSplitter::Wait(int corner, int blocker)
+{
+  Corner& tip = this->Corners[corner];
+  tip.Blocker = blocker;
+  tip.PreviousWaiting = None;
+  tip.NextWaiting = this->Corners[blocker].FirstWaiting;
+  if (tip.NextWaiting != None)
+  {
+    this->Corners[tip.NextWaiting].PreviousWaiting = corner;
+  }
+  this->Corners[blocker].FirstWaiting = corner;
+}
+
+void PolygonSplitter::StopWaiting(int corner)
+{
+  Corner& tip = this->Corners[corner];
+  if (tip.Blocker == None)
+  {
+    return;
+  }
+  (tip.PreviousWaiting == None ? this->Corners[tip.Blocker].FirstWaiting
+                               : this->Corners[tip.PreviousWaiting].NextWaiting) = tip.NextWaiting;
+  if (tip.NextWaiting != None)
+  {
+    this->Corners[tip.NextWaiting].PreviousWaiting = tip.PreviousWaiting;
+  }
+  tip.Blocker = None;
+}
+
+/// A corner is out of the way: who waited for it is to be judged anew.
+void PolygonSplitter::FreeWaiting(int blocker)
+{
+  while (this->Corners[blocker].FirstWaiting != None)
+  {
+    const int corner = this->Corners[blocker].FirstWaiting;
+    this->StopWaiting(corner);
+    this->ToJudge.push_back(corner);
+  }
+}
+
+int PolygonSplitter::NextEar()
+{
+  while (!this->Ears.empty())
+  {
+    const auto [diagonal, corner] = this->Ears.front();
+    std::pop_heap(this->Ears.begin(), this->Ears.end(), std::greater<>());
+    this->Ears.pop_back();
+    if (this->IsThere(corner) && this->Corners[corner].IsEar &&
+      this->Corners[corner].Diagonal == diagonal)
+    {
+      return corner;
+    }
+  }
+  return None;
+}
+
+int PolygonSplitter::AnyStraight()
+{
+  while (!this->Straight.empty())
+  {
+    const int corner = this->Straight.back();
+    this->Straight.pop_back();
+    if (this->IsThere(corner) && this->Corners[corner].Turn == 0)
+    {
+      return corner;
+    }
+  }
+  return None;
+}
+
+void PolygonSplitter::CutOff(int tip)
+{
+  const int before = this->Corners[tip].Previous;
+  const int after = this->Corners[tip].Next;
+  this->Output.push_back({ before, tip, after });
+  this->Corners[before].Next = after;
+  this->Corners[after].Previous = before;
+  this->Corners[tip].Next = None;
+  this->StopWaiting(tip);
+  this->ToJudge.clear();
+  if (this->Grid.Has(tip)) // it was straight
+  {
+    this->Grid.Remove(tip);
+    this->FreeWaiting(tip);
+  }
+  for (const int i : { before, after })
+  {
+    this->SetTurn(i);
+    this->ToJudge.push_back(i);
+  }
+  for (const int i : this->ToJudge)
+  {
+    if (this->IsThere(i))
+    {
+      this->Judge(i);
+    }
+  }
 }
 
 void PolygonSplitter::MakeFan(int count)
@@ -154,7 +277,46 @@ void PolygonSplitter::MakeFan(int count)
   }
 }
 
-PolygonSplitter::Result PolygonSplitter::Split(const std::vector<Vec3>& corners)
+PolygonSplitter::Result PolygonSplitter::Clip(int count, const GoOnCall& goOn)
+{
+  constexpr int stepsPerCall = 256;
+  const auto isStopped = [&goOn](int step)
+  { return step % stepsPerCall == stepsPerCall - 1 && goOn && !goOn(); };
+  for (int i = 0; i < count; ++i)
+  {
+    this->SetTurn(i);
+  }
+  for (int i = 0; i < count; ++i)
+  {
+    if (isStopped(i))
+    {
+      return Result::Stopped;
+    }
+    this->Judge(i);
+  }
+  int last = 0;
+  for (int left = count; left > 3; --left)
+  {
+    if (isStopped(left))
+    {
+      return Result::Stopped;
+    }
+    int tip = this->NextEar();
+    tip = tip == None ? this->AnyStraight() : tip;
+    if (tip == None)
+    {
+      return Result::Folded;
+    }
+    last = this->Corners[tip].Previous;
+    this->CutOff(tip);
+  }
+  const LocalTriangle rest{ this->Corners[last].Previous, last, this->Corners[last].Next };
+  this->Output.push_back(rest);
+  return this->Turn(rest[0], rest[1], rest[2]) < 0 ? Result::Folded : Result::Split;
+}
+
+PolygonSplitter::Result PolygonSplitter::Split(
+  const std::vector<Vec3>& corners, const GoOnCall& goOn)
 {
   const int count = static_cast<int>(corners.size());
   if (count == 3)
@@ -162,65 +324,18 @@ PolygonSplitter::Result PolygonSplitter::Split(const std::vector<Vec3>& corners)
     this->MakeFan(3);
     return Result::Split;
   }
-  if (!this->Project(corners))
-  {
-    this->MakeFan(count);
-    return Result::Folded;
-  }
   this->Output.clear();
-  for (int i = 0; i < count; ++i)
-  {
-    this->Corners[i].Turn = this->Turn(this->Corners[i].Previous, i, this->Corners[i].Next);
-  }
-  const auto judgeAll = [&]()
-  {
-    int i = this->First;
-    do
-    {
-      this->Judge(i, corners);
-      i = this->Corners[i].Next;
-    } while (i != this->First);
-  };
-  judgeAll();
-  for (int left = count; left > 3; --left)
-  {
-    int tip = this->BestEar();
-    if (tip < 0)
-    {
-      // A corner that has become convex may have freed others.
-      judgeAll();
-      tip = this->BestEar();
-    }
-    if (tip < 0)
-    {
-      tip = this->AnyStraight();
-    }
-    if (tip < 0)
-    {
-      this->MakeFan(count);
-      return Result::Folded;
-    }
-    const int before = this->Corners[tip].Previous;
-    const int after = this->Corners[tip].Next;
-    this->Output.push_back({ before, tip, after });
-    this->Corners[before].Next = after;
-    this->Corners[after].Previous = before;
-    this->First = before;
-    for (const int i : { before, after })
-    {
-      this->Corners[i].Turn = this->Turn(this->Corners[i].Previous, i, this->Corners[i].Next);
-    }
-    this->Judge(before, corners);
-    this->Judge(after, corners);
-  }
-  const int last = this->First;
-  const LocalTriangle rest{ this->Corners[last].Previous, last, this->Corners[last].Next };
-  if (this->Turn(rest[0], rest[1], rest[2]) < 0)
+  this->Given = &corners;
+  const Result result = this->Project(corners) ? this->Clip(count, goOn) : Result::Folded;
+  this->Given = nullptr;
+  if (result == Result::Folded)
   {
     this->MakeFan(count);
-    return Result::Folded;
   }
-  this->Output.push_back(rest);
-  return Result::Split;
+  else if (result == Result::Stopped)
+  {
+    this->Output.clear();
+  }
+  return result;
 }
 }

@@ -56,7 +56,7 @@ private:
   bool MarkCell(vtkIdType cell, vtkIdType size, const vtkIdType* points);
   bool MarkUsedPoints();
   bool MergePoints();
-  void AddPolygon(vtkIdType cell, vtkIdType size, const vtkIdType* points);
+  bool AddPolygon(vtkIdType cell, vtkIdType size, const vtkIdType* points);
   void AddStrip(vtkIdType cell, vtkIdType size, const vtkIdType* points);
   void AddTriangle(vtkIdType cell, const Triangle& points);
   bool Triangulate();
@@ -287,12 +287,13 @@ void Cleaner::AddTriangle(vtkIdType cell, const Triangle& points)
   }
 }
 
-void Cleaner::AddPolygon(vtkIdType cell, vtkIdType size, const vtkIdType* points)
+/// False where the work is to stop.
+bool Cleaner::AddPolygon(vtkIdType cell, vtkIdType size, const vtkIdType* points)
 {
   if (size == 3)
   {
     this->AddTriangle(cell, ToTriangle(points[0], points[1], points[2]));
-    return;
+    return true;
   }
   const auto isSame = [this](std::int32_t a, std::int32_t b)
   { return this->Merged[a] == this->Merged[b]; };
@@ -312,14 +313,19 @@ void Cleaner::AddPolygon(vtkIdType cell, vtkIdType size, const vtkIdType* points
   if (this->Outline.size() < 3)
   {
     ++this->Cleaned.Report.DegenerateTriangles;
-    return;
+    return true;
   }
   this->Corners.clear();
   for (const std::int32_t point : this->Outline)
   {
     this->Corners.push_back(this->Local[this->Merged[point]]);
   }
-  const PolygonSplitter::Result result = this->Splitter.Split(this->Corners);
+  const PolygonSplitter::Result result =
+    this->Splitter.Split(this->Corners, [this] { return this->Report(this->Fraction); });
+  if (result == PolygonSplitter::Result::Stopped)
+  {
+    return false;
+  }
   const std::size_t before = this->Cleaned.OriginalCell.size();
   for (const PolygonSplitter::LocalTriangle& t : this->Splitter.Triangles())
   {
@@ -331,6 +337,7 @@ void Cleaner::AddPolygon(vtkIdType cell, vtkIdType size, const vtkIdType* points
     report.FirstFoldedCell = report.FoldedPolygons == 0 ? cell : report.FirstFoldedCell;
     ++report.FoldedPolygons;
   }
+  return true;
 }
 
 void Cleaner::AddStrip(vtkIdType cell, vtkIdType size, const vtkIdType* points)
@@ -361,10 +368,7 @@ bool Cleaner::Triangulate()
   this->Cleaned.OriginalCell.reserve(expected);
   return this->VisitCells(polys, this->FirstStrip - polys->GetNumberOfCells(),
            [this](vtkIdType cell, vtkIdType size, const vtkIdType* points)
-           {
-             this->AddPolygon(cell, size, points);
-             return true;
-           }) &&
+           { return this->AddPolygon(cell, size, points); }) &&
     this->VisitCells(strips, this->FirstStrip,
       [this](vtkIdType cell, vtkIdType size, const vtkIdType* points)
       {

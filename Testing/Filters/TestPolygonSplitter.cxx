@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <map>
 #include <random>
 #include <utility>
@@ -208,4 +209,117 @@ TEST(HasArea, IsDecidedExactly)
   EXPECT_FALSE(HasArea({ 0, 0, 0 }, { third, 0.1, 0 }, { 2 * third, 0.2, 0 }));
   EXPECT_TRUE(HasArea({ 0, 0, 0 }, { third, 0.1, 0 }, { 2 * third, std::nextafter(0.2, 1.0), 0 }));
   EXPECT_TRUE(HasArea({ 0, 0, 0 }, { 1, 0, 0 }, { 0.5, 1e-140, 0 }));
+}
+
+namespace
+{
+constexpr double TwoPi = 6.283185307179586;
+
+/// A star of many lobes with a rough edge.
+std::vector<Vec3> RoughStar(int count)
+{
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> roughness(0.0, 0.01);
+  std::vector<Vec3> star;
+  for (int i = 0; i < count; ++i)
+  {
+    const double angle = TwoPi * i / count;
+    const double r = 1.0 + 0.3 * std::sin(37.0 * angle) + roughness(random);
+    star.push_back({ r * std::cos(angle), r * std::sin(angle), 0.0 });
+  }
+  return star;
+}
+
+/// Teeth on a bar, whose gaps all lie on one line.
+std::vector<Vec3> Comb(int count)
+{
+  std::vector<Vec3> comb{ { 0.0, -1.0, 0.0 }, { 1.0, -1.0, 0.0 } };
+  for (int i = count - 1; i >= 0; --i)
+  {
+    comb.push_back({ static_cast<double>(i) / count, i % 2 ? 1.0 : 0.01, 0.0 });
+  }
+  return comb;
+}
+
+/// A band of 20 turns.
+std::vector<Vec3> Spiral(int count)
+{
+  std::vector<Vec3> band;
+  const int half = count / 2;
+  for (int i = 0; i < half; ++i)
+  {
+    const double angle = 20.0 * TwoPi * i / half;
+    band.push_back({ (angle + 1.0) * std::cos(angle), (angle + 1.0) * std::sin(angle), 0.0 });
+  }
+  for (int i = half - 1; i > 0; --i)
+  {
+    const double angle = 20.0 * TwoPi * i / half;
+    band.push_back({ angle * std::cos(angle), angle * std::sin(angle), 0.0 });
+  }
+  return band;
+}
+
+/// A shallow arc and its chord: nearly all corners are alike.
+std::vector<Vec3> Arc(int count)
+{
+  std::vector<Vec3> arc;
+  for (int i = 0; i < count; ++i)
+  {
+    const double angle = 0.1 * i / count;
+    arc.push_back({ std::sin(angle), 1.0 - std::cos(angle), 0.0 });
+  }
+  std::reverse(arc.begin(), arc.end());
+  arc.push_back({ 0.0, -1.0, 0.0 }); // all of the arc is reflex
+  return arc;
+}
+}
+
+TEST(PolygonSplitter, SplitsPolygonsOfManyCornersProperly)
+{
+  for (const auto& make : { RoughStar, Comb, Spiral, Arc })
+  {
+    for (const int count : { 50, 1000, 5000 })
+    {
+      SCOPED_TRACE(count);
+      const std::vector<Vec3> polygon = make(count);
+      ExpectProper(
+        TwiceArea(polygon) > 0.0 ? polygon : std::vector<Vec3>(polygon.rbegin(), polygon.rend()));
+      ExpectProper(Scaled(
+        TwiceArea(polygon) > 0.0 ? polygon : std::vector<Vec3>(polygon.rbegin(), polygon.rend()),
+        1e6, 1e-6));
+    }
+  }
+}
+
+TEST(PolygonSplitter, AHundredThousandCornersTakeNoQuadraticTime)
+{
+  for (const auto& make : { RoughStar, Comb, Spiral })
+  {
+    PolygonSplitter splitter;
+    const auto seconds = [&](int count)
+    {
+      const std::vector<Vec3> polygon = make(count);
+      const std::clock_t start = std::clock(); // of the processor: the machine may be busy
+      EXPECT_EQ(splitter.Split(polygon), PolygonSplitter::Result::Split);
+      return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    };
+    const double small = seconds(10000);
+    const double large = seconds(100000);
+    EXPECT_LT(large, 60.0 * small + 1.0) << "square time is 100 times as much";
+  }
+}
+
+TEST(PolygonSplitter, StopsSoonAfterItIsAsked)
+{
+  const std::vector<Vec3> polygon = RoughStar(50000);
+  for (const int last : { 1, 50, 300 })
+  {
+    int calls = 0;
+    PolygonSplitter splitter;
+    EXPECT_EQ(
+      splitter.Split(polygon, [&] { return ++calls < last; }), PolygonSplitter::Result::Stopped);
+    EXPECT_EQ(calls, last);
+    EXPECT_TRUE(splitter.Triangles().empty());
+    ExpectProper(LShape); // it can be used again
+  }
 }
