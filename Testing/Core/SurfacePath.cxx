@@ -237,11 +237,12 @@ std::vector<Vec3> SurfacePath::Make(Kind kind, unsigned seed)
       for (int i = 0; i < 4; ++i)
       {
         this->Place(triangle);
-        const auto& [a, b, c] = this->Triangles[triangle];
-        const Vec3& p = this->Points[a];
+        const auto& corners = this->Triangles[triangle];
+        const Vec3& p = this->Points[corners[0]];
+        const Vec3& q = this->Points[corners[1]];
+        const Vec3& r = this->Points[corners[2]];
         // Eighths are exact where the corners have few digits.
-        const auto at = [&](int s, int t)
-        { return p + (s / 8.0) * (this->Points[b] - p) + (t / 8.0) * (this->Points[c] - p); };
+        const auto at = [&](int s, int t) { return p + (s / 8.0) * (q - p) + (t / 8.0) * (r - p); };
         const int s = this->Integer(-4, 12);
         const int t = this->Integer(-4, 12);
         way.push_back(at(-this->Integer(1, 8), this->Integer(-8, 8)));
