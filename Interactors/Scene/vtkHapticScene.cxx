@@ -68,7 +68,7 @@ void vtkHapticScene::FollowParts()
   this->TraceRecorder->AddObserver(vtkCommand::EndEvent, this->Follower);
 }
 
-void vtkHapticScene::NoticePart(vtkObject* part, unsigned long event, const char* report)
+void vtkHapticScene::NoticePart(vtkObject*, unsigned long event, const char* report)
 {
   std::string text;
   switch (event)
