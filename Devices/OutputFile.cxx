@@ -267,8 +267,8 @@ bool OutputFile::IsIntact(std::uint64_t& bytesLeft, std::string& error) const
   if (!isNamed || named.st_ino != own.st_ino || named.st_dev != own.st_dev)
   {
     bytesLeft = 0;
-    error = this->FileName + " was " +
-      (isNamed ? "replaced" : "deleted or moved away") + " while it was written.";
+    error = this->FileName + " was " + (isNamed ? "replaced" : "deleted or moved away") +
+      " while it was written.";
     return false;
   }
   const auto size = static_cast<std::uint64_t>(own.st_size);

@@ -69,8 +69,7 @@ public:
   int Find(const Place& a, const Place& b, const Place& c, Predicate&& isWanted) const
   {
     const std::array<Place, 3> corners{ this->InCells(a), this->InCells(b), this->InCells(c) };
-    const auto [lowest, highest] =
-      std::minmax({ corners[0][1], corners[1][1], corners[2][1] });
+    const auto [lowest, highest] = std::minmax({ corners[0][1], corners[1][1], corners[2][1] });
     const int lastRow = this->Index(highest);
     for (int row = this->Index(lowest); row <= lastRow; ++row)
     {
@@ -103,7 +102,8 @@ private:
   /// In units of cells. Never falls where a coordinate grows.
   Place InCells(const Place& place) const
   {
-    return { (place[0] - this->Low[0]) * this->Scale[0], (place[1] - this->Low[1]) * this->Scale[1] };
+    return { (place[0] - this->Low[0]) * this->Scale[0],
+      (place[1] - this->Low[1]) * this->Scale[1] };
   }
   int Index(double inCells) const
   {
@@ -113,15 +113,14 @@ private:
   /// From where to where the triangle is in a row of cells, in x.
   ///
   /// In cells, heights are rounded by less than 1e-11. An edge that rises by 1e-6 of them or more
-  /// meets a height at a place that is rounded by less than 1e-3; one that rises less, and meets the
-  /// row, has both ends in it.
+  /// meets a height at a place that is rounded by less than 1e-3; one that rises less, and meets
+  /// the row, has both ends in it.
   std::array<double, 2> Span(int row, const std::array<Place, 3>& corners) const
   {
     const double bottom = row - 1e-6;
     const double top = row + 1 + 1e-6;
     std::array<double, 2> span{ HUGE_VAL, -HUGE_VAL };
-    const auto add = [&span](double x)
-    { span = { std::min(span[0], x), std::max(span[1], x) }; };
+    const auto add = [&span](double x) { span = { std::min(span[0], x), std::max(span[1], x) }; };
     for (int i = 0; i < 3; ++i)
     {
       const Place& p = corners[i];
@@ -144,7 +143,7 @@ private:
 
   int Side = 1;
   Place Low{};
-  Place Scale{}; // cells a unit of length; 0 where there is one
+  Place Scale{};          // cells a unit of length; 0 where there is one
   std::vector<int> First; // point of each cell
   std::vector<Entry> Entries;
 };

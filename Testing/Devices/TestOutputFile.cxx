@@ -60,8 +60,8 @@ public:
   {
     OutputFile file;
     std::string error;
-    if (file.Open(name, error) && file.Write(text.data(), text.size(), error) &&
-      file.Sync(error) && file.Publish(error) && file.Close(error))
+    if (file.Open(name, error) && file.Write(text.data(), text.size(), error) && file.Sync(error) &&
+      file.Publish(error) && file.Close(error))
     {
       return "";
     }
@@ -126,7 +126,7 @@ TEST_F(OutputFileTest, FollowsLinksAndLeavesThem)
 {
   fs::create_directory(this->Folder / "real");
   Put(this->Path("real/a"), "old");
-  fs::create_symlink("real/a", this->Path("near"));         // relative to its folder
+  fs::create_symlink("real/a", this->Path("near"));          // relative to its folder
   fs::create_symlink(this->Path("near"), this->Path("far")); // of a link
   EXPECT_EQ(Replace(this->Path("far"), "new"), "");
   EXPECT_TRUE(fs::is_symlink(this->Path("near")) && fs::is_symlink(this->Path("far")));
@@ -225,7 +225,8 @@ TEST_F(OutputFileTest, OnAFullDiskLeavesTheOldOneAndNoRemains)
   const pid_t child = fork();
   if (child == 0)
   {
-    if (unshare(CLONE_NEWNS) != 0 || mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||
+    if (unshare(CLONE_NEWNS) != 0 ||
+      mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||
       mount("none", this->Folder.c_str(), "tmpfs", 0, "size=64k") != 0)
     {
       _exit(77);
@@ -240,7 +241,8 @@ TEST_F(OutputFileTest, OnAFullDiskLeavesTheOldOneAndNoRemains)
         error.find("Free some space") != std::string::npos && Text(name) == "old" &&
         this->NumberOfFiles() == 1;
     }
-    isRight = isRight && Replace(name, std::string(30000, 'y')).empty() && Text(name).size() == 30000;
+    isRight =
+      isRight && Replace(name, std::string(30000, 'y')).empty() && Text(name).size() == 30000;
     _exit(isRight ? 0 : 1);
   }
   int status = 0;

@@ -98,7 +98,8 @@ TEST(RecordingFaults, AFullDiskIsReportedAtOnceAndEveryTickCounted)
   ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
   const rlimit limit{ 50001, before.rlim_max };
   ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &limit), 0);
-  ExpectReport(name, [] {}, "ends after 445 ticks");
+  ExpectReport(
+    name, [] {}, "ends after 445 ticks");
   ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
   EXPECT_EQ(TicksIn(name), 445) << "(50001 - 108) / 112";
 }
@@ -106,7 +107,8 @@ TEST(RecordingFaults, AFullDiskIsReportedAtOnceAndEveryTickCounted)
 TEST(RecordingFaults, ADeletedFileIsReported)
 {
   const std::string name = NewName();
-  ExpectReport(name, [&] { fs::remove(name); }, "deleted or moved away");
+  ExpectReport(
+    name, [&] { fs::remove(name); }, "deleted or moved away");
 }
 
 TEST(RecordingFaults, AReplacedFileIsReportedAndTheOtherOneIsLeft)
@@ -126,8 +128,10 @@ TEST(RecordingFaults, AReplacedFileIsReportedAndTheOtherOneIsLeft)
 TEST(RecordingFaults, ATruncatedFileIsReportedAndCountedByWhatIsLeft)
 {
   const std::string name = NewName();
-  ExpectReport(name, [&] { fs::resize_file(name, 0); }, "changed by another program");
-  ExpectReport(name, [&] { fs::resize_file(name, 108 + 7 * 112); }, "changed by another program");
+  ExpectReport(
+    name, [&] { fs::resize_file(name, 0); }, "changed by another program");
+  ExpectReport(
+    name, [&] { fs::resize_file(name, 108 + 7 * 112); }, "changed by another program");
   EXPECT_EQ(TicksIn(name), 7);
 }
 
@@ -146,8 +150,8 @@ TEST(RecordingFaults, TwoScenesNeverShareAFile)
     const EventCounter errors(second.Scene, vtkCommand::ErrorEvent);
     EXPECT_FALSE(second.Scene->Engage());
     EXPECT_EQ(errors.Count, 1);
-    EXPECT_NE(std::string(second.Scene->GetErrorMessage()).find("being written already"),
-      std::string::npos)
+    EXPECT_NE(
+      std::string(second.Scene->GetErrorMessage()).find("being written already"), std::string::npos)
       << second.Scene->GetErrorMessage();
   }
   first.Scene->Release();
