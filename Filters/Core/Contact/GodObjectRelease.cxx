@@ -8,8 +8,11 @@ namespace haptics
 {
 namespace
 {
-/// Planes to try: those that hold, and those of facets in the way of a try.
-constexpr int MostPlanes = 8;
+/// Planes to try: those that hold, those of facets in the way of a try, and of a goal that rests
+/// those of facets near by.
+constexpr int MostPlanes = 16;
+/// So many clearances from the god-object is near by.
+constexpr double NearBy = 64.0;
 /// How far behind a plane a try ends, in its clearances: not so near that the next cast meets it
 /// again.
 constexpr double DepthBehind = 4.0;
@@ -20,9 +23,9 @@ constexpr double LeastDescent = 1e-3;
 constexpr double SlowShare = 0.02;
 constexpr double RestingShare = 1e-5;
 /// Pulls with this cosine between them, a third of a thousandth, get the same answer; those of a
-/// goal that does not rest with that one, a twentieth: there it is not worth asking in each update.
+/// goal that does not rest with that one, a fifth: there it is not worth asking in each update.
 constexpr double SameDirection = 1.0 - 5e-8;
-constexpr double AlmostSameDirection = 1.0 - 1.25e-3;
+constexpr double AlmostSameDirection = 0.98;
 /// A position is another one from so many clearances on.
 constexpr double SamePlace = 0.25;
 
@@ -91,9 +94,9 @@ struct Tries
 /// concave, no three planes are what is free. So a god-object that is held asks whether it is held
 /// by facets: where a short motion that ends behind planes that hold it is certified to touch
 /// nothing, what is there of them is not in the way. It is tried towards the goal, along each plane
-/// and along two; a facet in the way of one try is a plane to go along in the next. All lead nearer
-/// to the goal, so the update stays monotone. True if such a motion was made: the next pass goes on
-/// from there.
+/// and along two; a facet in the way of one try is a plane to go along in the next, and where the
+/// goal rests, so is any facet near by. All lead nearer to the goal, so the update stays monotone.
+/// True if such a motion was made: the next pass goes on from there.
 bool GodObject::Implementation::Release(const Vector& goal)
 {
   const Vector pull = goal - this->Position;
@@ -143,26 +146,39 @@ bool GodObject::Implementation::Release(const Vector& goal)
     this->Active.Clear();
     return true;
   };
-  if (attempt(-1, -1))
+  int tried = 0;
+  const auto attemptAll = [&]
   {
-    return true;
-  }
-  // Tries add planes.
-  for (int i = 0; i < tries.Size; ++i)
-  {
-    if (attempt(i, -1))
+    for (; tried < tries.Size; ++tried) // tries add planes
     {
-      return true;
-    }
-    for (int j = 0; j < i; ++j)
-    {
-      if (attempt(j, i))
+      if (attempt(tried, -1))
       {
         return true;
       }
+      for (int other = 0; other < tried; ++other)
+      {
+        if (attempt(other, tried))
+        {
+          return true;
+        }
+      }
     }
+    return false;
+  };
+  if (attempt(-1, -1) || attemptAll())
+  {
+    return true;
   }
-  return false;
+  if (this->GoalMoved > RestingShare * glm::length(pull))
+  {
+    return false;
+  }
+  for (std::size_t i = this->First; i < this->Last; ++i)
+  {
+    this->Sets[i].VisitNear(NearBy, [&](const ActivePlane& plane) { tries.Add(plane); });
+  }
+  this->ReleasesLeft = 0;
+  return attemptAll();
 }
 
 /// Whether a motion that is clear does not squeeze through a gap that facets close by reaching over

@@ -244,6 +244,7 @@ void WorkingSet::MeasureTarget(const Vector& to)
   this->Target = to;
   this->Measure(to, this->TargetDistance);
   this->IsTargetMeasured = true;
+  this->IsTargetClear = false;
 }
 
 void WorkingSet::TurnToPosition()
@@ -344,7 +345,8 @@ void WorkingSet::SetLimits()
   {
     const double half = 0.5 * clearance[i];
     const double least = half < distance[i] ? half : distance[i];
-    limit[i] = distance[i] < -error[i] ? -HUGE_VAL : least;
+    const double value = least > error[i] ? least : error[i];
+    limit[i] = distance[i] < -error[i] ? -HUGE_VAL : value;
   }
   if (this->Covered != Region::Ball)
   {
@@ -402,17 +404,20 @@ FacetHit WorkingSet::Scan(const Vector& to, const ActivePlanes& active)
   const double* const after = this->TargetDistance.data();
   const double* const limit = this->Limit.data();
   const std::int32_t gathered = this->Count;
+  bool isClear = true;
   for (std::int32_t i = 0; i < gathered; ++i)
   {
-    if (after[i] >= limit[i])
+    if (after[i] > limit[i])
     {
       continue;
     }
+    isClear = false;
     const double here = this->Distance[i];
     const double there = this->TargetDistance[i];
     const double clearance = this->Clearance[i];
     // No farther than four clearances from a facet is it met, half a one over its plane.
-    if (!this->MeetsBox(i, to, 16.0 * clearance + 4.0 * wayError))
+    if (there >= std::min(0.5 * clearance, here) ||
+      !this->MeetsBox(i, to, 16.0 * clearance + 4.0 * wayError))
     {
       continue;
     }
@@ -455,6 +460,7 @@ FacetHit WorkingSet::Scan(const Vector& to, const ActivePlanes& active)
     }
     meetings[count++] = { i, stop, slack, there };
   }
+  this->IsTargetClear = isClear;
   FacetHit hit;
   const Meeting* chosen = nullptr;
   for (int k = 0; k < count; ++k)
@@ -506,7 +512,8 @@ bool WorkingSet::IsClear(const Vector& target)
   {
     return false; // short of the hit, but rounded to beyond it, where other triangles are
   }
-  return !this->MeetsAny(to);
+  const bool isKnown = this->IsTargetMeasured && this->IsTargetClear && to == this->Target;
+  return isKnown || !this->MeetsAny(to);
 }
 
 bool WorkingSet::IsClearNear(const Vector& target, ActivePlane& inTheWay)
@@ -554,16 +561,32 @@ std::int32_t WorkingSet::FindTouched(const Vector& to)
   {
     // Asked first whether it may end behind: few motions do.
     if (after[i] <= error[i] && before[i] >= -error[i] && this->MeetsBox(i, to, 0.0) &&
-      this->Touches(i, this->Position, to))
+      this->Touches(i, after[i], to))
     {
+      this->LastTouched = i;
       return i;
     }
   }
   return -1;
 }
 
-bool WorkingSet::Touches(std::int32_t i, const Vector& from, const Vector& to) const
+bool WorkingSet::StillTouches(const Vector& to) const
 {
+  const std::int32_t i = this->LastTouched;
+  if (i < 0 || !this->IsPositionMeasured || !(this->Distance[i] >= -this->Error[i]))
+  {
+    return false;
+  }
+  const Vector d = to - this->Centre;
+  const double after =
+    this->NormalX[i] * d.x + this->NormalY[i] * d.y + this->NormalZ[i] * d.z - this->PlaneOffset[i];
+  return after <= this->Error[i] && this->MeetsBox(i, to, 0.0) && this->Touches(i, after, to);
+}
+
+/// `distance`: of `to` from the triangle's plane, as measured.
+bool WorkingSet::Touches(std::int32_t i, double distance, const Vector& to) const
+{
+  const Vector& from = this->Position;
   auto [a, b, c] = this->CornersOf(this->Triangles[i]);
   if (this->Flipped[i])
   {
@@ -574,7 +597,7 @@ bool WorkingSet::Touches(std::int32_t i, const Vector& from, const Vector& to) c
   {
     return false;
   }
-  const int after = this->TargetDistance[i] < -this->Error[i] ? -1 : Orientation(a, b, c, to);
+  const int after = distance < -this->Error[i] ? -1 : Orientation(a, b, c, to);
   if (after > 0 || (before == 0 && after == 0))
   {
     return false;
@@ -657,7 +680,7 @@ bool WorkingSet::IsOpen(const Vector& goal, WorkBudget& budget, NarrowGap& gap)
   {
     return true;
   }
-  if (this->Covered == Region::Ball && this->MeetsAny(to))
+  if (this->Covered == Region::Ball && (this->StillTouches(to) || this->MeetsAny(to)))
   {
     return false;
   }

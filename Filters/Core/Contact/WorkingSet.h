@@ -107,6 +107,28 @@ public:
   /// in a sweep. `inTheWay`: set to the plane of a facet that is, if one is known.
   bool IsClearNear(const Vector& target, ActivePlane& inTheWay);
 
+  /// Calls visit(plane) for the gathered facets within so many of their clearances of the
+  /// god-object; of the plane, only Facet and Normal are set.
+  template <class Visitor>
+  void VisitNear(double clearances, const Visitor& visit)
+  {
+    if (!this->IsPositionMeasured)
+    {
+      this->MeasurePosition();
+    }
+    for (std::int32_t i = 0; i < this->Count; ++i)
+    {
+      const double reach = clearances * this->Clearance[i];
+      if (std::abs(this->Distance[i]) <= reach && this->MeetsBox(i, this->Position, reach))
+      {
+        ActivePlane plane;
+        plane.Facet = { this->Index, this->Triangles[i] };
+        plane.Normal = this->ToSurface.VectorToScene(this->FacetNormal(i));
+        visit(plane);
+      }
+    }
+  }
+
   /// Moves to the target of the last IsClear, which must have been true.
   void Move();
 
@@ -183,7 +205,7 @@ private:
   void GrowEmptyBall(double nearest);
   FacetHit Scan(const Vector& to, const ActivePlanes& active);
   bool MeetsAny(const Vector& to);
-  bool Touches(std::int32_t i, const Vector& from, const Vector& to) const;
+  bool Touches(std::int32_t i, double distance, const Vector& to) const;
   /// Whether the way to `to` comes into a triangle's box, grown by `reach`: as far as the way's own
   /// box tells.
   bool MeetsBox(std::int32_t i, const Vector& to, double reach) const
@@ -207,6 +229,8 @@ private:
   }
   /// A gathered triangle that a motion touches from the side that can be touched, or -1.
   std::int32_t FindTouched(const Vector& to);
+  /// Whether a motion touches the triangle that was found last; false where it is not known.
+  bool StillTouches(const Vector& to) const;
   struct Corners
   {
     Vector A, B, C;
@@ -284,7 +308,8 @@ private:
   // Structure of arrays, one entry a gathered triangle. Distances are to its plane, positive on
   // the side that the god-object is on when both sides can be touched.
   std::int32_t Count = 0;
-  std::int32_t FoundCount = 0; ///< what the engine found, of which Count are near enough
+  std::int32_t LastTouched = -1; ///< by a motion that was not clear
+  std::int32_t FoundCount = 0;   ///< what the engine found, of which Count are near enough
   std::vector<std::int32_t> Found;
   std::vector<std::int32_t> Triangles;
   std::vector<std::uint8_t> Flipped;
@@ -305,7 +330,8 @@ private:
   std::array<std::vector<double>, 3> Low, High; ///< its box
   std::vector<double> Error, Clearance;
   std::vector<double> Distance, TargetDistance;
-  /// A motion that ends nearer to the plane than this may meet the facet.
+  bool IsTargetClear = false; ///< no triangle can be touched on the way to Target, for certain
+  /// A motion that ends farther from the plane than this does not meet the facet, nor touch it.
   std::vector<double> Limit;
 };
 }

@@ -39,6 +39,7 @@ bool WorkingSet::GatherBall(WorkBudget& budget)
     this->Radius = (fromOrigin - surfaceRadius) * (1.0 - 0x1p-40);
     this->RadiusToTry = surfaceRadius;
     this->Count = 0;
+    this->LastTouched = -1;
     this->HasThin = false;
     this->FoundCount = 0;
     this->EmptyCentre = this->Position;
@@ -135,6 +136,7 @@ void WorkingSet::Fill(
   const TriangleList& found, const Vector& middle, double radius, double farthest)
 {
   this->Count = 0;
+  this->LastTouched = -1;
   this->HasThin = false;
   this->IsTargetMeasured = false;
   this->FoundCount = found.Count;
