@@ -1,6 +1,5 @@
 """Files of many kinds become surfaces, and no file ends the process by a signal."""
 
-import gzip
 import os
 import random
 import shutil
@@ -9,114 +8,27 @@ import subprocess
 import sys
 import tempfile
 
+import file_kinds
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet
-from vtkmodules.vtkFiltersCore import vtkAppendFilter
-from vtkmodules.vtkFiltersSources import vtkSphereSource
-from vtkmodules.vtkImagingCore import vtkImageShiftScale, vtkRTAnalyticSource
-from vtkmodules.vtkIOGeometry import vtkOBJWriter, vtkSTLWriter
-from vtkmodules.vtkIOImage import vtkNIFTIImageWriter
-from vtkmodules.vtkIOLegacy import vtkPolyDataWriter, vtkStructuredPointsWriter
-from vtkmodules.vtkIOPLY import vtkPLYWriter
-from vtkmodules.vtkIOXML import (
-    vtkXMLImageDataWriter,
-    vtkXMLMultiBlockDataWriter,
-    vtkXMLPolyDataWriter,
-    vtkXMLUnstructuredGridWriter,
-)
 
 from vtkhaptics import surfaces
 from vtkhaptics.surfaces import SurfaceError, read_surface
 
 
-def write(writer, source, path):
-    writer.SetInputConnection(source.GetOutputPort())
-    writer.SetFileName(path)
-    if hasattr(writer, "SetDataModeToBinary"):
-        writer.SetDataModeToBinary()
-    assert writer.Write() in (1, None), path
-    return path
-
-
-def ball():
-    source = vtkSphereSource()
-    source.SetThetaResolution(16)
-    source.SetPhiResolution(16)
-    source.GenerateNormalsOff()
-    source.Update()
-    return source
-
-
-def mesh():
-    append = vtkAppendFilter()
-    append.SetInputData(ball().GetOutput())
-    return append
-
-
-def image():
-    source = vtkRTAnalyticSource()
-    source.Update()
-    short = vtkImageShiftScale()  # NIfTI takes few types
-    short.SetInputData(source.GetOutput())
-    short.SetOutputScalarTypeToShort()
-    return short
-
-
-def write_off(path):
-    surface = ball().GetOutput()
-    with open(path, "w", encoding="ascii") as file:
-        print("OFF # a comment", surface.GetNumberOfPoints(), surface.GetNumberOfPolys(), 0, sep="\n",
-              file=file)
-        for i in range(surface.GetNumberOfPoints()):
-            print(*surface.GetPoint(i), file=file)
-        for i in range(surface.GetNumberOfCells()):
-            ids = surface.GetCell(i).GetPointIds()
-            print(3, *(ids.GetId(k) for k in range(3)), file=file)
-    return path
-
-
-def write_blocks(path):
-    blocks = vtkMultiBlockDataSet()
-    for i in range(2):
-        blocks.SetBlock(i, ball().GetOutput())
-    writer = vtkXMLMultiBlockDataWriter()
-    writer.SetInputData(blocks)
-    writer.SetFileName(path)
-    writer.SetDataModeToBinary()
-    assert writer.Write() == 1
-    return path
-
-
 def test_surfaces_of_many_kinds(folder):
-    triangles = ball().GetOutput().GetNumberOfPolys()
-    files = {
-        write(vtkSTLWriter(), ball(), os.path.join(folder, "a.stl")): triangles,
-        write(vtkPLYWriter(), ball(), os.path.join(folder, "a.ply")): triangles,
-        write(vtkOBJWriter(), ball(), os.path.join(folder, "a.obj")): triangles,
-        write(vtkPolyDataWriter(), ball(), os.path.join(folder, "a.vtk")): triangles,
-        write(vtkXMLPolyDataWriter(), ball(), os.path.join(folder, "a.vtp")): triangles,
-        write(vtkXMLUnstructuredGridWriter(), mesh(), os.path.join(folder, "a.vtu")): triangles,
-        write_off(os.path.join(folder, "a.off")): triangles,
-        write_blocks(os.path.join(folder, "a.vtm")): 2 * triangles,
-    }
+    files = file_kinds.surfaces_in(folder)
     for path, count in files.items():
         assert read_surface(path).GetNumberOfPolys() == count, path
         if not path.endswith(".vtm"):  # its pieces lie in a folder of their own
-            with open(path, "rb") as file, gzip.open(path + ".gz", "wb") as packed:
-                shutil.copyfileobj(file, packed)
-            assert read_surface(path + ".gz").GetNumberOfPolys() == count, path
+            assert read_surface(file_kinds.pack(path)).GetNumberOfPolys() == count, path
     return list(files)
 
 
 def test_images_and_contours(folder):
-    for path in (
-        write(vtkXMLImageDataWriter(), image(), os.path.join(folder, "i.vti")),
-        write(vtkStructuredPointsWriter(), image(), os.path.join(folder, "i.vtk")),
-        write(vtkNIFTIImageWriter(), image(), os.path.join(folder, "i.nii")),
-        write(vtkNIFTIImageWriter(), image(), os.path.join(folder, "i.nii.gz")),
-    ):
-        outside, contour = read_surface(path), read_surface(path, contour=157.0)
+    paths = file_kinds.images_in(folder)
+    for path in paths:
+        outside, contour = read_surface(path), read_surface(path, contour=file_kinds.VALUE)
         assert outside.GetNumberOfPolys() == 6 * 20 * 20, (path, outside.GetNumberOfPolys())
         assert contour.GetNumberOfPolys() > 1000, (path, contour.GetNumberOfPolys())
         try:
@@ -125,15 +37,18 @@ def test_images_and_contours(folder):
             assert "go from" in str(error) and path in str(error), error
         else:
             raise AssertionError(f"{path}: a contour where there is none")
-    nrrd = os.path.join(folder, "i.nrrd")
-    voxels = image()
-    voxels.Update()
-    values = vtk_to_numpy(voxels.GetOutput().GetPointData().GetScalars())
-    with open(nrrd, "wb") as file:
-        file.write(b"NRRD0004\ntype: short\ndimension: 3\nsizes: 21 21 21\nencoding: raw\n"
-                   b"endian: little\nspacings: 1 1 1\n\n")
-        file.write(values.astype("<i2").tobytes())
-    assert read_surface(nrrd, contour=157.0).GetNumberOfPolys() > 1000
+    return paths
+
+
+def test_several_meshes_in_one_file(folder):
+    if not file_kinds.nibabel:
+        print("left out: GIfTI and FreeSurfer need nibabel (Debian: python3-nibabel)")
+        return
+    surface = read_surface(os.path.join(folder, "several.gii"))
+    depth = vtk_to_numpy(surface.GetPointData().GetArray("depth"))
+    low, high = surface.GetBounds()[::2], surface.GetBounds()[1::2]
+    assert len(depth) == surface.GetNumberOfPoints()
+    assert high[0] - low[0] > 4.9, "they lie beside each other"
 
 
 def run(path):
@@ -146,23 +61,31 @@ def run(path):
         capture_output=True, encoding="utf-8", errors="replace", check=False)
 
 
+def damage(path, number, rng):
+    """A copy of a file, or of a folder with one of its files, that is cut or has wrong bytes."""
+    base, dot, extension = os.path.basename(path).partition(".")
+    bad = target = os.path.join(os.path.dirname(path), f"{base}-{number}{dot}{extension}")
+    if os.path.isdir(path):
+        shutil.copytree(path, bad)
+        target = os.path.join(bad, rng.choice(sorted(os.listdir(bad))))
+    else:
+        shutil.copy(path, bad)
+    with open(target, "rb") as file:
+        data = bytearray(file.read())
+    if number % 2:
+        data = data[: rng.randrange(len(data))]
+    else:
+        begin = len(data) if number % 4 else min(len(data), 600)  # anywhere, or in what describes it
+        for _ in range(12):
+            data[rng.randrange(begin)] = rng.randrange(256)
+    with open(target, "wb") as file:
+        file.write(data)
+    return bad
+
+
 def test_no_file_ends_the_process(folder, files):
     rng = random.Random(7)
-    damaged = []
-    for path in files:
-        if path.endswith(".vtm"):
-            continue
-        with open(path, "rb") as file:
-            whole = file.read()
-        for number in range(12):
-            name, extension = os.path.splitext(path)
-            bad = f"{name}-{number}{extension}"
-            data = bytearray(whole[: rng.randrange(len(whole))] if number % 2 else whole)
-            for _ in range(20 if number % 2 == 0 else 0):
-                data[rng.randrange(len(data))] = rng.randrange(256)
-            with open(bad, "wb") as file:
-                file.write(data)
-            damaged.append(bad)
+    damaged = [damage(path, number, rng) for path in files for number in range(6)]
     corners = "".join(f"v {x} {y} 0\n" for x in (0, 1) for y in (0, 1))
     header = (
         "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
@@ -174,15 +97,43 @@ def test_no_file_ends_the_process(folder, files):
         ("no_vt.obj", corners + "vn 0 0 1\n" * 4 + "f 1/1/1 2/2/2 3/3/3\n"),
         ("beyond.ply", header + "0 0 0\n0 1 0\n1 0 0\n1 1 0\n3 0 1 999\n"),
         ("cut.ply", header + "0 0 0\n0 1 0\n"),
+        ("beyond.vtu", grid(connectivity="0 1 2 77")),
+        ("beyond.vtp", plane(connectivity="0 1 77")),
+        ("offsets.vtp", plane(offsets="9999")),
+        ("many.vtp", plane(points=99999999999)),
     ):
         damaged.append(os.path.join(folder, name))
         with open(damaged[-1], "w", encoding="ascii") as file:
             file.write(text)
     done = run(damaged)
     assert done.returncode == 0, (done.returncode, done.stdout[-500:], done.stderr[-500:])
-    named = [os.path.join(folder, name) for name in ("beyond.obj", "beyond.ply", "cut.ply")]
-    for path in named:
-        assert path in done.stdout, (path, done.stdout[-2000:])
+    named = (
+        "beyond.obj", "beyond.ply", "cut.ply", "beyond.vtu", "beyond.vtp", "offsets.vtp", "many.vtp")
+    for name in named:
+        assert os.path.join(folder, name) in done.stdout, (name, done.stdout[-2000:])
+
+
+def xml(kind, points, cells, piece):
+    """A file of VTK's with the corners of a unit square, as text."""
+    return (
+        f'<VTKFile type="{kind}" version="1.0" byte_order="LittleEndian" header_type="UInt64"><{kind}>'
+        f'<Piece NumberOfPoints="{points}" {piece}><Points><DataArray type="Float32" '
+        'NumberOfComponents="3" format="ascii">0 0 0 1 0 0 0 1 0 1 1 0</DataArray></Points>'
+        f"{cells}</Piece></{kind}></VTKFile>"
+    )
+
+
+def plane(points=4, connectivity="0 1 2", offsets="3"):
+    return xml("PolyData", points, '<Polys><DataArray type="Int64" Name="connectivity" '
+               f'format="ascii">{connectivity}</DataArray><DataArray type="Int64" Name="offsets" '
+               f'format="ascii">{offsets}</DataArray></Polys>', 'NumberOfPolys="1"')
+
+
+def grid(connectivity):
+    return xml("UnstructuredGrid", 4, '<Cells><DataArray type="Int64" Name="connectivity" '
+               f'format="ascii">{connectivity}</DataArray><DataArray type="Int64" Name="offsets" '
+               'format="ascii">4</DataArray><DataArray type="UInt8" Name="types" format="ascii">10'
+               "</DataArray></Cells>", 'NumberOfCells="1"')
 
 
 def test_strips_of_a_ply_file_are_named(folder):
@@ -222,7 +173,8 @@ def test_formats_are_told():
 
 with tempfile.TemporaryDirectory() as scratch:
     made = test_surfaces_of_many_kinds(scratch)
-    test_images_and_contours(scratch)
+    made += test_images_and_contours(scratch)
+    test_several_meshes_in_one_file(scratch)
     test_no_file_ends_the_process(scratch, made)
     test_strips_of_a_ply_file_are_named(scratch)
     test_an_array_that_is_the_same_everywhere_colours_nothing(scratch)

@@ -49,8 +49,8 @@ def parse(arguments):
         "surfaces",
         nargs="+",
         metavar="SURFACE",
-        help="what to touch: " + ", ".join(FORMATS) + ", also with .gz behind, or a folder with the "
-        "slices of a DICOM image; of meshes and images the outside, see --contour",
+        help="what to touch: " + ", ".join(FORMATS) + ", also with .gz behind, FreeSurfer's "
+        "(lh.pial), or a folder with the slices of a DICOM image; of meshes and images the outside, see --contour",
     )
     parser.add_argument(
         "--contour",

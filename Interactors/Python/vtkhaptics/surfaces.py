@@ -9,14 +9,14 @@ import tempfile
 import zlib
 
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkSTLReader
 from vtkmodules.vtkIOPLY import vtkPLYReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
-from . import volumes
+from . import cortices, volumes
 from .trial import Crashed, try_apart
 from .units import file_unit
 from .volumes import NoSurfaceError
@@ -30,7 +30,7 @@ READERS = {
 }
 
 FORMATS = sorted([*READERS, ".gii", ".off"])
-CRASHING = (".obj", ".ply", ".vtk", ".glb", ".gltf", ".off", ".nii", ".nrrd", ".nhdr")
+SAFE = (".stl",)  # what cannot crash its reader once it has been looked at, see _stl_as_read()
 
 NO_POLYGONS_HINT = "Check that the file is whole and holds triangles, polygons or strips."
 STRIPS_HINT = (
@@ -165,44 +165,6 @@ def _stl_as_read(path):
         yield copy.name
 
 
-def _read_gifti(path):
-    """The mesh in a GIfTI file, through nibabel, with the other arrays of the file that fit."""
-    try:
-        import nibabel
-    except ImportError as error:
-        raise SurfaceError(
-            f"{path}: GIfTI needs nibabel. Install it (Debian: apt-get install python3-nibabel)."
-        ) from error
-    try:
-        image = nibabel.load(path)
-        points, triangles = image.agg_data(("pointset", "triangle"))
-    except Exception as error:  # nibabel's own, expat's, zlib's and OSError: all mean the file
-        raise SurfaceError(
-            f"{path}: could not be read as GIfTI: {error}. Check that the file is whole."
-        ) from error
-    if not len(points) or not len(triangles):
-        raise SurfaceError(
-            f"{path}: has no mesh, only values. Give the surface's file (such as pial.gii)."
-        )
-    surface = vtkPolyData()
-    vtk_points = vtkPoints()
-    vtk_points.SetData(numpy_to_vtk(np.ascontiguousarray(points), deep=True))
-    surface.SetPoints(vtk_points)
-    cells = vtkCellArray()
-    offsets = np.arange(0, 3 * len(triangles) + 1, 3, dtype=np.int64)
-    cells.SetData(
-        numpy_to_vtkIdTypeArray(offsets, deep=True),
-        numpy_to_vtkIdTypeArray(np.ravel(triangles).astype(np.int64), deep=True),
-    )
-    surface.SetPolys(cells)
-    for array in image.darrays:
-        if array.data.ndim == 1 and len(array.data) == len(points):
-            values = numpy_to_vtk(np.ascontiguousarray(array.data), deep=True)
-            values.SetName(array.meta.get("Name") or "values")
-            surface.GetPointData().AddArray(values)
-    return surface
-
-
 def value_arrays(surface):
     """Names of the point and cell arrays that tell values: numbers, but no normals, texture
     coordinates or ids of VTK's own."""
@@ -254,7 +216,7 @@ def unit_note(path, surface, unit=None):
 def _unpacked(path):
     """A context with the path to a file as it is, or unpacked where its name ends in .gz."""
     lower = path.lower()
-    if not lower.endswith(".gz") or lower.endswith((".gii.gz", ".nii.gz")):
+    if not lower.endswith(".gz") or lower.endswith(".nii.gz"):
         return contextlib.nullcontext(path)
     return _gunzipped(path)
 
@@ -338,8 +300,16 @@ def _read_unpacked(path, unpacked, progress, contour):
     lower = path.lower()
     packed = lower[: -len(".gz")] if lower.endswith(".gz") else lower
     extension = "" if os.path.isdir(path) else os.path.splitext(packed)[1]
+    read_cortex = None
     if extension == ".gii":
-        return _read_gifti(path)
+        read_cortex = cortices.read_gifti
+    elif extension not in FORMATS and not os.path.isdir(path) and cortices.is_freesurfer(unpacked):
+        read_cortex = cortices.read_freesurfer
+    if read_cortex:
+        try:
+            return read_cortex(unpacked)
+        except NoSurfaceError as error:
+            raise SurfaceError(f"{path}: {error}") from error
     if not os.path.isdir(path) and extension not in FORMATS:
         raise SurfaceError(
             f"{path}: files of type '{extension}' are not known. "
@@ -358,7 +328,7 @@ def _read_unpacked(path, unpacked, progress, contour):
             errors = run_reader(reader, progress)
             return reader.GetOutputDataObject(0), errors
 
-        if not extension or extension in CRASHING:
+        if extension not in SAFE:
             try:
                 try_apart(lambda: volumes.surface_of(read()[0], contour))
             except Crashed as error:
@@ -377,8 +347,7 @@ def _read_unpacked(path, unpacked, progress, contour):
     try:
         volumes.name_scalars(data)
         for part in volumes.leaves(data):
-            if part.IsA("vtkPolyData"):
-                volumes.check_cells(part)
+            volumes.check_cells(part)
         surface = volumes.surface_of(data, contour)
     except NoSurfaceError as error:
         raise SurfaceError(f"{path}: {error}") from error

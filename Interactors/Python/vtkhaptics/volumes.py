@@ -130,13 +130,22 @@ def name_scalars(data):
             scalars.SetName("values")
 
 
-def check_cells(surface):
-    """Raises NoSurfaceError where a cell names a point that is not there: VTK would end the
-    process at some filter behind."""
-    count = surface.GetNumberOfPoints()
-    for cells in (surface.GetVerts(), surface.GetLines(), surface.GetPolys(), surface.GetStrips()):
+def check_cells(part):
+    """Raises NoSurfaceError where a cell of a surface or a mesh names a point that is not there: VTK
+    would end the process at some filter behind, or touch what is elsewhere in its memory."""
+    if part.IsA("vtkPolyData"):
+        arrays = (part.GetVerts(), part.GetLines(), part.GetPolys(), part.GetStrips())
+    else:
+        arrays = (part.GetCells(),) if part.IsA("vtkUnstructuredGrid") else ()
+    count = part.GetNumberOfPoints()
+    for cells in arrays:
         if cells and cells.GetNumberOfConnectivityIds():
             ids = vtk_to_numpy(cells.GetConnectivityArray())
+            if not cells.IsValid():
+                raise NoSurfaceError(
+                    "it does not say rightly where its cells begin and end. Check that the file is "
+                    "whole, or save it again with the program that made it."
+                )
             wrong = np.flatnonzero((ids < 0) | (ids >= count))
             if len(wrong):
                 raise NoSurfaceError(
