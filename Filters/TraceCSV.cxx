@@ -118,7 +118,8 @@ std::string CSVValue(vtkAbstractArray* array, vtkIdType tuple, int component)
 std::string CSVColumn(const std::string& array, int component, int count)
 {
   const std::string number = std::to_string(component);
-  return count == 1 ? array : array + "_" + (count == 3 ? std::string(1, "XYZ"[component]) : number);
+  return count == 1 ? array
+                    : array + "_" + (count == 3 ? std::string(1, "XYZ"[component]) : number);
 }
 
 std::string WriteTraceCSV(vtkPolyData* trace, const char* file)

@@ -4,6 +4,7 @@
 #include "haptics/Filters/SurfacePreparation.h"
 #include "haptics/Scene/ActorMatrix.h"
 #include "haptics/Scene/BackgroundWorker.h"
+#include "haptics/Scene/PullSettings.h"
 #include "haptics/Surface/SurfaceDeformer.h"
 #include "haptics/Surface/TriangleSurface.h"
 
@@ -14,10 +15,6 @@
 
 namespace haptics
 {
-/// How long a surface may be on its way between two updates [s]. What would take longer is put in
-/// its new place at once and pushes nothing.
-constexpr double LongestMotion = 0.1;
-
 /// @brief From a geometry and a matrix to a snapshot, on any thread.
 class SurfaceBuild : public BackgroundTask
 {

@@ -216,7 +216,7 @@ std::vector<TouchedSurface> SurfaceSet::Touched() const
   std::vector<TouchedSurface> touched;
   for (const HapticSurface* surface : this->Listed())
   {
-    touched.emplace_back(surface->Touched(), surface->Motion(), surface->Felt());
+    touched.emplace_back(surface->Touched(), surface->Motion(), surface->TouchedProperties());
     touched.back().Identity = surface->Identity();
     touched.back().IsGripped = surface->IsGripped();
   }

@@ -241,6 +241,24 @@ TEST(MovingActors, OneThatComesBackFromAScaleOfZeroIsTouched)
   actor->SetScale(1.0);
   hand.MoveTo(0.01);
   EXPECT_TRUE(hand.Scene->IsSurfaceTouchable(id));
+  EXPECT_FALSE(hand.Scene->IsSurfaceOutdated(id)) << "it is where it is shown";
+}
+
+TEST(MovingActors, OneThatComesBackInAnotherSizeIsUpToDate)
+{
+  TableActor hand;
+  const int id = hand.Scene->GetSurfaceId(0);
+  EventCounter errors(hand.Scene, vtkCommand::ErrorEvent);
+  for (const double size : { 2.0, 0.5 })
+  {
+    hand.Actor->SetScale(0.0);
+    hand.Scene->Step(10);
+    EXPECT_TRUE(hand.Scene->IsSurfaceOutdated(id)) << "what was touched before stays";
+    hand.Actor->SetScale(size); // is baked
+    hand.Scene->Step(10);
+    EXPECT_FALSE(hand.Scene->IsSurfaceOutdated(id));
+  }
+  EXPECT_EQ(errors.Count, 2) << "once for each time";
 }
 
 TEST(MovingActors, OneThatMovesWhileItIsHiddenPushesNothingWhenItComesBack)
