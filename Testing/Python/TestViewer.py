@@ -10,6 +10,7 @@ import tempfile
 import time
 from contextlib import redirect_stderr, redirect_stdout
 
+import file_kinds
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkDoubleArray
@@ -22,8 +23,8 @@ from vtkmodules.vtkRenderingCore import vtkCamera
 import vtkhaptics
 from vtkhaptics import detail, surfaces
 from vtkhaptics import viewer as viewer_module
-from vtkhaptics.arguments import parse
-from vtkhaptics.picture import fill_view
+from vtkhaptics.arguments import EPILOG, parse
+from vtkhaptics.picture import fill_view, save_window
 from vtkhaptics.progress import ProgressBar
 from vtkhaptics.recording import read_recording
 from vtkhaptics.surfaces import unit_note
@@ -206,6 +207,77 @@ def test_large_surfaces_are_coarse_while_the_picture_moves(folder):
         assert triangles() == full
     finally:
         detail.FRAME_TIME = slow
+
+
+def pixels(path):
+    reader = vtkPNGReader()
+    reader.SetFileName(path)
+    reader.Update()
+    return vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())[:, :3].astype(float)
+
+
+def test_the_picture_is_the_same_at_every_scale(folder):
+    """While a surface is prepared, and with the hand on it: clipped nowhere, marks in proportion."""
+    pictures = {}
+    for scale in (1.0, 1e-9, 1e-3, 1e4, 1e12):
+        surface = read(ball(0.0, folder))
+        points = vtk_to_numpy(surface.GetPoints().GetData())
+        points *= scale
+        path = write(surface, os.path.join(folder, f"scale{scale:g}.vtp"))
+        prepared, touched = (os.path.join(folder, f"{kind}{scale:g}.png") for kind in "pt")
+        common = (path, "--offscreen", "--size", "300", "200", "--seconds", "2", "--scalars", "none")
+        shown = Viewer(parse(common))
+        with redirect_stdout(io.StringIO()):
+            shown.add_surfaces()
+        shown.open()
+        save_window(shown.window, prepared, scale=1)
+        done = viewer(*common, "--screenshot", touched)
+        assert done.returncode == 0, (scale, done.stderr)
+        pictures[scale] = pixels(prepared), pixels(touched)
+    background = pictures[1.0][0][[0, -1]].mean()
+    for scale, found in pictures.items():
+        for picture, right in zip(found, pictures[1.0]):
+            # The upper half: below are the coordinates in words.
+            picture, right = picture[len(picture) // 2 :], right[len(right) // 2 :]
+            assert np.abs(picture - background).max() > 60.0, f"{scale}: there is nothing"
+            # But for pixels at the silhouette, which rounding moves.
+            wrong = (np.abs(picture - right).max(axis=1) > 40.0).mean()
+            assert wrong < 0.002, f"{scale}: {100 * wrong:.2f} % of the picture is another"
+
+
+def test_the_examples_of_the_help(folder):
+    examples = [line.split()[3:] for line in EPILOG.splitlines() if "python3 -m vtkhaptics" in line]
+    assert len(examples) == 6, examples
+    for name in ("gearbox.stl", "vessel.stl", "t13.stl"):
+        file_kinds.write(vtkSTLWriter(), file_kinds.ball(), os.path.join(folder, name))
+    for name in ("pial.vtp", "skull.vtp"):
+        surface = read(ball(0.0, folder))
+        surface.GetPointData().GetArray("Height").SetName("Sulc")
+        write(surface, os.path.join(folder, name))
+    bright = file_kinds.image()
+    bright.SetScale(4.0)
+    file_kinds.write(file_kinds.vtkNIFTIImageWriter(), bright, os.path.join(folder, "head.nii.gz"))
+    before = os.getcwd()
+    os.chdir(folder)
+    try:
+        for example in examples:
+            more = [] if "--offscreen" in example else ["--offscreen"]
+            done = viewer(*example, *more, "--seconds", "2", "--size", "200", "150")
+            assert done.returncode == 0, (example, done.stderr)
+            for option in ("--screenshot", "--trace", "--landmarks"):
+                if option in example:
+                    written = example[example.index(option) + 1]
+                    assert os.path.getsize(written) > 0, (example, written)
+    finally:
+        os.chdir(before)
+
+
+def test_outputs_that_cannot_be_written_are_found_before_a_surface_is_read(folder):
+    for option, name in (("--screenshot", "a.png"), ("--trace", "a.vtp"), ("--landmarks", "a.csv")):
+        path = os.path.join(folder, "missing", name)
+        done = viewer(os.path.join(folder, "no.stl"), "--offscreen", option, path)
+        assert done.returncode == 1 and path in done.stderr, (option, done.stderr)
+        assert "no.stl" not in done.stderr, "before the surface"
 
 
 def test_simulated(folder):
@@ -473,6 +545,9 @@ with tempfile.TemporaryDirectory() as scratch:
         test_options_of_the_material_and_landmarks,
         test_units_that_files_name,
         test_large_surfaces_are_coarse_while_the_picture_moves,
+        test_the_picture_is_the_same_at_every_scale,
+        test_the_examples_of_the_help,
+        test_outputs_that_cannot_be_written_are_found_before_a_surface_is_read,
         test_simulated,
         test_what_is_gripped_is_carried_in_the_picture,
         test_bad_input,

@@ -89,13 +89,17 @@ def test_viewer(desktop, folder):
 
 
 def test_demo(desktop, folder):
-    for number, way in enumerate(WAYS):
+    # In the middle of a stroke that would go on for longer than end() waits, and after a short one.
+    for number, (way, seconds, begun) in enumerate([
+        *((way, 60, "touching for") for way in WAYS), ("q", 2, "trace: "), ("close button", 2, "trace: "),
+    ]):
         output = os.path.join(folder, f"demo{number}")
         program = desktop.start(
             [sys.executable, "-m", "vtkhaptics.demo", "--surface", ball(folder), "--output", output,
-             "--seconds", "2", "--stay"])
-        program.says("touching for" if way == "e" else "trace: ")  # in the middle, and after it
-        end(program, way, "demo --stay")
+             "--seconds", str(seconds), "--stay"])
+        program.says(begun)
+        time.sleep(0.5)
+        end(program, way, f"demo --seconds {seconds} --stay")
         for result in ("trace.vtp", "touched.png"):
             assert os.path.getsize(os.path.join(output, result)) > 1000, (way, program.output())
 
