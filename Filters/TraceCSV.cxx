@@ -1,5 +1,7 @@
 #include "haptics/Filters/TraceCSV.h"
 
+#include "haptics/Files/OutputFile.h"
+
 #include "vtkAbstractArray.h"
 #include "vtkDataArray.h"
 #include "vtkPointData.h"
@@ -9,9 +11,9 @@
 
 #include <array>
 #include <charconv>
-#include <cstdio>
 #include <cstring>
-#include <fstream>
+#include <locale>
+#include <sstream>
 #include <vector>
 
 namespace haptics
@@ -78,8 +80,9 @@ void WriteTable(vtkPolyData* trace, std::ostream& stream)
 }
 }
 
-std::string CSVField(const std::string& text)
+std::string CSVField(const std::string& given)
 {
+  const std::string text = given.find_first_of("=+-@\t\r") == 0 ? "'" + given : given;
   if (text.find_first_of(",\"\n\r") == std::string::npos)
   {
     return text;
@@ -124,20 +127,16 @@ std::string CSVColumn(const std::string& array, int component, int count)
 
 std::string WriteTraceCSV(vtkPolyData* trace, const char* file)
 {
-  const std::string name = file ? file : "";
-  const std::string unfinished = name + ".part";
-  std::ofstream stream;
-  if (!name.empty())
+  std::ostringstream stream;
+  stream.imbue(std::locale::classic());
+  WriteTable(trace, stream);
+  const std::string text = stream.str();
+  OutputFile output;
+  std::string error;
+  if (!output.Open(file ? file : "", error) || !output.Write(text.data(), text.size(), error) ||
+    !output.Sync(error) || !output.Publish(error) || !output.Close(error))
   {
-    stream.open(unfinished);
-    WriteTable(trace, stream);
-    stream.close();
-  }
-  if (name.empty() || !stream || std::rename(unfinished.c_str(), name.c_str()) != 0)
-  {
-    std::remove(unfinished.c_str());
-    return "The trace could not be written to " + (name.empty() ? "(no name)" : name) +
-      ". Check that the folder exists, may be written to and has room.";
+    return "The trace " + error;
   }
   return {};
 }

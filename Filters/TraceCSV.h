@@ -11,7 +11,9 @@ class vtkPolyData;
 
 namespace haptics
 {
-/// A field of a table of comma-separated values, in quotes where RFC 4180 asks for them.
+/// A name or text as a field of a table of comma-separated values, in quotes where RFC 4180 asks
+/// for them. A spreadsheet would run what begins with =, +, - or @, so an apostrophe goes before
+/// it, which marks it as text there.
 VTKHAPTICSFILTERS_EXPORT std::string CSVField(const std::string& text);
 
 /// One value of an array as such a field, a number with as many digits as tell it from every other

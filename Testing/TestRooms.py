@@ -9,13 +9,14 @@ import sys
 
 # From a room to those that it may know besides itself; see ARCHITECTURE.md.
 KNOWS = {
+    "Filters/Core/Files": (),
     "Filters/Core/Math": (),
     "Filters/Core/Surface": ("Filters/Core/Math",),
     "Filters/Core/Material": ("Filters/Core/Math", "Filters/Core/Surface"),
     "Filters/Core/Contact": ("Filters/Core/Math", "Filters/Core/Surface", "Filters/Core/Material"),
     "Filters/Core/Tick": ("Filters/Core",),
     "Filters": ("Filters/Core",),
-    "Devices": (),
+    "Devices": ("Filters/Core/Files",),
     "Interactors/Servo": ("Filters/Core", "Devices"),
     "Interactors/Scene": ("Filters", "Devices", "Interactors/Servo"),
     "Interactors/View": ("Filters", "Devices", "Interactors/Servo", "Interactors/Scene"),

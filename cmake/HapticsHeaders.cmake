@@ -11,7 +11,7 @@ set(haptics_include_dir "${CMAKE_BINARY_DIR}/headers")
 file(MAKE_DIRECTORY "${haptics_include_dir}/haptics")
 foreach (room IN ITEMS
   Filters/Core/Math Filters/Core/Surface Filters/Core/Material Filters/Core/Contact
-  Filters/Core/Tick
+  Filters/Core/Tick Filters/Core/Files
   Filters Devices Interactors/Servo Interactors/Scene Interactors/View)
   get_filename_component(name "${room}" NAME)
   file(CREATE_LINK "${PROJECT_SOURCE_DIR}/${room}" "${haptics_include_dir}/haptics/${name}"

@@ -1,7 +1,7 @@
 #ifndef Haptics_DeviceRecording_h
 #define Haptics_DeviceRecording_h
 
-#include "haptics/Devices/OutputFile.h"
+#include "haptics/Files/OutputFile.h"
 #include "vtkHapticsDevicesModule.h"
 
 #include <array>

@@ -1,6 +1,7 @@
 #include "vtkHapticLandmarks.h"
 
-#include "haptics/Devices/OutputFile.h"
+#include "haptics/Files/OutputFile.h"
+#include "haptics/Filters/TraceCSV.h"
 #include "haptics/Scene/GeodesicPath.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -14,7 +15,6 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
-#include "vtkVariant.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,28 +34,6 @@ Array* AddArray(vtkPolyData* data, const char* name, int components)
   array->SetNumberOfComponents(components);
   data->GetPointData()->AddArray(array);
   return array; // the data holds it
-}
-
-/// As RFC 4180 has it.
-std::string Quoted(const std::string& text)
-{
-  if (text.find_first_of(",\"\n\r") == std::string::npos)
-  {
-    return text;
-  }
-  std::string quoted = "\"";
-  for (const char c : text)
-  {
-    quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  }
-  return quoted + "\"";
-}
-
-/// A name or label. A spreadsheet would run what begins as a formula does, so an apostrophe goes
-/// before it, which marks it as text there.
-std::string QuotedText(const std::string& text)
-{
-  return Quoted(text.find_first_of("=+-@\t\r") == 0 ? "'" + text : text);
 }
 
 /// Every component of every array of the landmarks, under its name, each once.
@@ -86,11 +64,7 @@ std::string ValueOf(vtkDataSetAttributes* values, const std::string& column)
       if (column ==
         std::string(array->GetName()) + (count > 1 ? "_" + std::to_string(c) : std::string()))
       {
-        // As many digits as tell every value of its type.
-        const int digits = array->GetDataType() == VTK_FLOAT ? 9 : 17;
-        const std::string value =
-          array->GetVariantValue(c).ToString(vtkVariant::DEFAULT_FORMATTING, digits);
-        return array->IsNumeric() ? Quoted(value) : QuotedText(value);
+        return haptics::CSVValue(array, 0, c);
       }
     }
   }
@@ -309,7 +283,7 @@ bool vtkHapticLandmarks::WriteCSV(const char* file)
   stream << "label,x,y,z,surface,cell,point_0,point_1,point_2,weight_0,weight_1,weight_2";
   for (const std::string& column : columns)
   {
-    stream << "," << QuotedText(column);
+    stream << "," << haptics::CSVField(column);
   }
   stream << "\r\n";
   stream.precision(std::numeric_limits<double>::max_digits10);
@@ -317,7 +291,7 @@ bool vtkHapticLandmarks::WriteCSV(const char* file)
   {
     vtkHapticProbe* probe = landmark.Probe;
     const double* p = probe->GetPosition();
-    stream << QuotedText(landmark.Label) << "," << p[0] << "," << p[1] << "," << p[2] << ","
+    stream << haptics::CSVField(landmark.Label) << "," << p[0] << "," << p[1] << "," << p[2] << ","
            << probe->GetSurface() << "," << probe->GetCell();
     for (int i = 0; i < 3; ++i)
     {

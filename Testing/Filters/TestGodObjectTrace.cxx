@@ -304,7 +304,7 @@ TEST_F(PlaneInMillimetres, IsWrittenAsATable)
   EXPECT_EQ(fields(names), fields(pressed));
 
   EXPECT_FALSE(this->Trace->WriteCSV((::testing::TempDir() + "no folder/trace.csv").c_str()));
-  EXPECT_NE(messages.Errors().find("Check that the folder exists"), std::string::npos);
+  EXPECT_NE(messages.Errors().find("Make its folder first"), std::string::npos);
   EXPECT_FALSE(this->Trace->WriteCSV(nullptr));
   EXPECT_FALSE(this->Trace->WriteCSV(""));
   std::remove(file.c_str());

@@ -2,12 +2,13 @@
 // Usage: HapticsSceneTraces FOLDER      writes scenes.csv, traces.csv and ratios.csv there
 #include "AnalyticSurfaces.h"
 #include "Scenes.h"
+#include "haptics/Files/OutputFile.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <memory>
 #include <string>
+#include <utility>
 
 using namespace haptics::testing;
 
@@ -16,18 +17,39 @@ namespace
 /// Rows of one run: more are thinned out, as a chart has no room for them.
 constexpr std::size_t MostRows = 400;
 
-using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
-
-File Open(const std::string& name)
+/// A table that is written whole or not at all, at its end.
+class Table
 {
-  File file(std::fopen(name.c_str(), "w"), std::fclose);
-  if (!file)
+public:
+  explicit Table(std::string name)
+    : Name(std::move(name))
+    , Stream(open_memstream(&this->Text, &this->Size))
   {
-    std::perror(name.c_str());
-    std::exit(1);
   }
-  return file;
-}
+  ~Table()
+  {
+    std::fclose(this->Stream);
+    haptics::OutputFile file;
+    std::string error;
+    if (!file.Open(this->Name, error) || !file.Write(this->Text, this->Size, error) ||
+      !file.Sync(error) || !file.Publish(error) || !file.Close(error))
+    {
+      std::fprintf(stderr, "%s\n", error.c_str());
+      std::exit(1);
+    }
+    std::free(this->Text);
+  }
+  Table(const Table&) = delete;
+  Table& operator=(const Table&) = delete;
+
+  std::FILE* get() const { return this->Stream; }
+
+private:
+  const std::string Name;
+  char* Text = nullptr;
+  std::size_t Size = 0;
+  std::FILE* const Stream;
+};
 
 void WriteRun(std::FILE* file, const Scene& scene, const char* run, const Trace& trace)
 {
@@ -60,8 +82,8 @@ int main(int argc, char* argv[])
     return argc == 2 && std::string(argv[1]) == "--help" ? 0 : 2;
   }
   const std::string folder = std::string(argv[1]) + "/";
-  const File scenes = Open(folder + "scenes.csv");
-  const File traces = Open(folder + "traces.csv");
+  const Table scenes(folder + "scenes.csv");
+  const Table traces(folder + "traces.csv");
   std::fputs("scene,title,ours,other,component\n", scenes.get());
   std::fputs("scene,run,time_s,hip_x_mm,hip_z_mm,held_x_mm,held_z_mm,force_n\n", traces.get());
   for (const Scene& scene : AllScenes())
@@ -75,7 +97,7 @@ int main(int argc, char* argv[])
     WriteRun(traces.get(), scene, "ours", scene.Ours());
     WriteRun(traces.get(), scene, "other", scene.Other());
   }
-  const File ratios = Open(folder + "ratios.csv");
+  const Table ratios(folder + "ratios.csv");
   std::fputs("degrees,ours,sum\n", ratios.get());
   for (int degrees = 0; degrees <= 150; degrees += 10)
   {

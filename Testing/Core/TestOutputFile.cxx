@@ -1,4 +1,4 @@
-#include "haptics/Devices/OutputFile.h"
+#include "haptics/Files/OutputFile.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #ifndef Haptics_OutputFile_h
 #define Haptics_OutputFile_h
 
-#include "vtkHapticsDevicesModule.h"
+#include "vtkHapticsCoreModule.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -20,7 +20,7 @@ namespace haptics
 /// process; so is a file that another OutputFile, of any process, is still writing. A limit on the
 /// size of files is an error, not a signal. Where a call returns false, `error` names the file and
 /// says why, and what to do. One thread; not the servo's.
-class VTKHAPTICSDEVICES_EXPORT OutputFile
+class VTKHAPTICSCORE_EXPORT OutputFile
 {
 public:
   OutputFile() = default;
