@@ -1,5 +1,7 @@
 #include "haptics/Scene/BackgroundWorker.h"
 
+#include <iterator>
+#include <list>
 #include <system_error>
 #include <utility>
 
@@ -18,24 +20,107 @@ bool BackgroundTask::Report(double fraction)
   return !this->Cancelled.load(std::memory_order_relaxed);
 }
 
+/// The threads of workers that are gone while they were at work.
+class BackgroundWorker::Retired
+{
+public:
+  static Retired& All()
+  {
+    static Retired retired;
+    return retired;
+  }
+  /// At the end of the program, when nothing else is left to wait.
+  ~Retired()
+  {
+    for (Entry& entry : this->Entries)
+    {
+      Clear(entry);
+    }
+  }
+  void Add(std::thread thread, std::shared_ptr<Shared> state)
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    this->Entries.push_back({ std::move(thread), std::move(state), ProcessOwner() });
+  }
+  void Collect()
+  {
+    std::list<Entry> over;
+    {
+      const std::lock_guard<std::mutex> lock(this->Mutex);
+      for (auto entry = this->Entries.begin(); entry != this->Entries.end();)
+      {
+        const auto next = std::next(entry);
+        if (entry->State->IsOver.load(std::memory_order_acquire) || !entry->Owner.IsHere())
+        {
+          over.splice(over.end(), this->Entries, entry);
+        }
+        entry = next;
+      }
+    }
+    for (Entry& entry : over)
+    {
+      Clear(entry);
+    }
+  }
+
+private:
+  struct Entry
+  {
+    std::thread Thread;
+    std::shared_ptr<Shared> State;
+    ProcessOwner Owner;
+  };
+  static void Clear(Entry& entry)
+  {
+    if (entry.Owner.IsHere())
+    {
+      entry.Thread.join();
+    }
+    else
+    {
+      GiveUp(entry.Thread);
+      new std::shared_ptr<Shared>(entry.State);
+    }
+  }
+
+  std::mutex Mutex;
+  std::list<Entry> Entries;
+};
+
+BackgroundWorker::BackgroundWorker()
+{
+  Retired::All().Collect();
+}
+
 BackgroundWorker::~BackgroundWorker()
 {
   if (!this->Owner.IsHere())
   {
     GiveUp(this->Thread);
-    this->Changed.release(); // its end would wait for the thread that waits for it
+    // Its condition variable's end would wait for the thread that waits for it.
+    new std::shared_ptr<Shared>(std::move(this->State));
     return;
   }
+  if (!this->Thread.joinable())
   {
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    for (const std::shared_ptr<BackgroundTask>& task : this->Waiting)
+    return;
+  }
+  bool isAtWork = false;
+  {
+    const std::lock_guard<std::mutex> lock(this->State->Mutex);
+    isAtWork = !this->State->Waiting.empty();
+    for (const std::shared_ptr<BackgroundTask>& task : this->State->Waiting)
     {
       task->Cancel();
     }
-    this->Ending = true;
+    this->State->Ending = true;
   }
-  this->Changed->notify_all();
-  if (this->Thread.joinable())
+  this->State->Changed->notify_all();
+  if (isAtWork)
+  {
+    Retired::All().Add(std::move(this->Thread), this->State);
+  }
+  else
   {
     this->Thread.join();
   }
@@ -43,31 +128,32 @@ BackgroundWorker::~BackgroundWorker()
 
 void BackgroundWorker::Start(std::shared_ptr<BackgroundTask> task)
 {
+  Shared& shared = *this->State;
   if (!this->Owner.IsHere())
   {
     task->Run();
-    this->Finished.push_back(std::move(task));
+    shared.Finished.push_back(std::move(task));
     return;
   }
   if (!this->Thread.joinable())
   {
     try
     {
-      this->Thread = std::thread([this] { this->Work(); });
+      this->Thread = std::thread([state = this->State] { Work(*state); });
     }
     catch (const std::system_error&) // the system has no thread to give: the caller waits
     {
       task->Run();
-      const std::lock_guard<std::mutex> lock(this->Mutex);
-      this->Finished.push_back(std::move(task));
+      const std::lock_guard<std::mutex> lock(shared.Mutex);
+      shared.Finished.push_back(std::move(task));
       return;
     }
   }
   {
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    this->Waiting.push_back(std::move(task));
+    const std::lock_guard<std::mutex> lock(shared.Mutex);
+    shared.Waiting.push_back(std::move(task));
   }
-  this->Changed->notify_all();
+  shared.Changed->notify_all();
 }
 
 void BackgroundWorker::Wait()
@@ -76,37 +162,39 @@ void BackgroundWorker::Wait()
   {
     return;
   }
-  std::unique_lock<std::mutex> lock(this->Mutex);
-  this->Changed->wait(lock, [this] { return this->Waiting.empty(); });
+  std::unique_lock<std::mutex> lock(this->State->Mutex);
+  this->State->Changed->wait(lock, [this] { return this->State->Waiting.empty(); });
 }
 
 void BackgroundWorker::Collect()
 {
+  Retired::All().Collect();
   std::vector<std::shared_ptr<BackgroundTask>> finished;
   if (this->Owner.IsHere())
   {
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    finished.swap(this->Finished);
+    const std::lock_guard<std::mutex> lock(this->State->Mutex);
+    finished.swap(this->State->Finished);
   }
 }
 
-void BackgroundWorker::Work()
+void BackgroundWorker::Work(Shared& shared)
 {
-  std::unique_lock<std::mutex> lock(this->Mutex);
+  std::unique_lock<std::mutex> lock(shared.Mutex);
   while (true)
   {
-    this->Changed->wait(lock, [this] { return this->Ending || !this->Waiting.empty(); });
-    if (this->Waiting.empty())
+    shared.Changed->wait(lock, [&shared] { return shared.Ending || !shared.Waiting.empty(); });
+    if (shared.Waiting.empty())
     {
+      shared.IsOver.store(true, std::memory_order_release);
       return;
     }
-    const std::shared_ptr<BackgroundTask>& task = this->Waiting.front(); // a deque keeps its place
+    const std::shared_ptr<BackgroundTask>& task = shared.Waiting.front(); // a deque keeps its place
     lock.unlock();
     task->Run();
     lock.lock();
-    this->Finished.push_back(std::move(this->Waiting.front()));
-    this->Waiting.pop_front();
-    this->Changed->notify_all();
+    shared.Finished.push_back(std::move(shared.Waiting.front()));
+    shared.Waiting.pop_front();
+    shared.Changed->notify_all();
   }
 }
 }

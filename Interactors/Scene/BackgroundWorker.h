@@ -50,8 +50,9 @@ private:
 class BackgroundWorker
 {
 public:
-  BackgroundWorker() = default;
-  /// Asks for the end of all tasks and waits for that of the one in work.
+  BackgroundWorker();
+  /// Asks for the end of all tasks, and waits for none: a thread that is still at work ends by
+  /// itself, and what it leaves is cleared up by another worker, or when the program ends.
   ~BackgroundWorker();
   BackgroundWorker(const BackgroundWorker&) = delete;
   BackgroundWorker& operator=(const BackgroundWorker&) = delete;
@@ -64,14 +65,22 @@ public:
   void Collect();
 
 private:
-  void Work();
+  /// What the worker and its thread share; the last of both frees it.
+  struct Shared
+  {
+    std::mutex Mutex;
+    std::unique_ptr<std::condition_variable> Changed = std::make_unique<std::condition_variable>();
+    std::deque<std::shared_ptr<BackgroundTask>> Waiting; // the first one is in work
+    std::vector<std::shared_ptr<BackgroundTask>> Finished;
+    bool Ending = false;
+    std::atomic<bool> IsOver{ false }; // the thread does nothing any more
+  };
+  class Retired;
+
+  static void Work(Shared& shared);
 
   std::thread Thread;
-  std::mutex Mutex;
-  std::unique_ptr<std::condition_variable> Changed = std::make_unique<std::condition_variable>();
-  std::deque<std::shared_ptr<BackgroundTask>> Waiting; // the first one is in work
-  std::vector<std::shared_ptr<BackgroundTask>> Finished;
-  bool Ending = false;
+  std::shared_ptr<Shared> State = std::make_shared<Shared>();
   const ProcessOwner Owner;
 };
 }
