@@ -69,6 +69,11 @@ FalconExchange::Outcome FalconExchange::TryOnce(const FalconCommand& command, Fa
   const std::int64_t start = Now();
   const std::uint64_t malformed = this->Reader.GetNumberOfMalformed();
   bool heard = false;
+  const bool pushes = command.Torques != decltype(command.Torques){};
+  if (pushes)
+  {
+    this->Usb.GetGuardian().SetPushes(true);
+  }
   this->Out.Submit(packet.data(), packet.size(), ReplyTimeout / Millisecond, Doing);
   ++this->Unanswered;
   while (!heard && this->Reader.GetNumberOfMalformed() == malformed)
@@ -94,6 +99,10 @@ FalconExchange::Outcome FalconExchange::TryOnce(const FalconCommand& command, Fa
   if (this->Unanswered > 0 || this->Age > ReplyTimeout)
   {
     return Outcome::Unsure;
+  }
+  if (!pushes)
+  {
+    this->Usb.GetGuardian().SetPushes(false);
   }
   this->Link.Exchanges.fetch_add(1, std::memory_order_acq_rel); // see FalconChannel::Settle()
   return Outcome::Answered;
@@ -263,5 +272,6 @@ void FalconExchange::SayFarewell()
     status = this->Out.Wait();
   }
   FalconUsb::Check(status, doing);
+  this->Usb.GetGuardian().SetPushes(false);
 }
 }

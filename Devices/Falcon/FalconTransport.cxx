@@ -136,7 +136,7 @@ void FalconTransport::RunSessions()
 {
   const bool realTime = RequestRealTime();
   this->ChangeStatus([=](FalconStatus& status) { status.RealTime = realTime; });
-  FalconUsb usb(this->Stop);
+  FalconUsb usb(this->Stop, this->Settings.Guardian);
   while (true)
   {
     const unsigned int arrivals = usb.GetArrivals();

@@ -22,6 +22,7 @@ struct FalconSettings
   int DeviceIndex = 0;          ///< which of those plugged in, counted by their place
   std::string FirmwareFile;     ///< needed only where the device has none loaded
   bool OpenOnArrival = false;   ///< bring it up again whenever one is plugged in
+  std::string Guardian;         ///< the program of FalconGuardian; empty for none
   double CommandTimeout = 0.02; ///< [s] after which a torque that nobody renewed is withdrawn
 };
 

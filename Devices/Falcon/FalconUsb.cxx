@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstdio>
 #include <cstring>
 #include <iomanip>
 #include <memory>
 #include <sstream>
+#include <utility>
 
 namespace haptics
 {
@@ -135,8 +137,9 @@ int FalconUsb::Transfer::Wait()
   return this->Handle->status;
 }
 
-FalconUsb::FalconUsb(const std::atomic<bool>& stop)
+FalconUsb::FalconUsb(const std::atomic<bool>& stop, std::string guardian)
   : Stop(stop)
+  , GuardianProgram(std::move(guardian))
 {
   const int error = libusb_init(&this->Context);
   if (error != LIBUSB_SUCCESS)
@@ -226,6 +229,13 @@ void FalconUsb::Open(int index)
       libusb_set_auto_detach_kernel_driver(this->Device, 1);
       error = libusb_claim_interface(this->Device, Interface);
     }
+    if (error == LIBUSB_SUCCESS)
+    {
+      std::array<char, 32> file{};
+      std::snprintf(file.data(), file.size(), "/dev/bus/usb/%03d/%03d",
+        libusb_get_bus_number(device), libusb_get_device_address(device));
+      this->Guardian.Start(this->GuardianProgram, file.data());
+    }
     if (error != LIBUSB_SUCCESS)
     {
       problem = ExplainOpening(error, device);
@@ -247,6 +257,7 @@ void FalconUsb::Close()
     libusb_release_interface(this->Device, Interface);
     libusb_close(this->Device);
     this->Device = nullptr;
+    this->Guardian.Stop();
   }
 }
 

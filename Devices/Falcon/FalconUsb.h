@@ -1,6 +1,7 @@
 #ifndef Haptics_FalconUsb_h
 #define Haptics_FalconUsb_h
 
+#include "haptics/Devices/Falcon/FalconGuardian.h"
 #include "haptics/Devices/Falcon/FalconPacket.h"
 
 #include <libusb.h>
@@ -74,7 +75,8 @@ public:
     std::uint8_t Buffer[FtdiPacketSize] = {};
   };
 
-  explicit FalconUsb(const std::atomic<bool>& stop);
+  /// `guardian`: the program of FalconGuardian, or empty.
+  explicit FalconUsb(const std::atomic<bool>& stop, std::string guardian = {});
   ~FalconUsb();
   FalconUsb(const FalconUsb&) = delete;
   FalconUsb& operator=(const FalconUsb&) = delete;
@@ -88,6 +90,7 @@ public:
   /// Lets go of the device, if there is one. Throws nothing.
   void Close();
   bool IsOpen() const { return this->Device != nullptr; }
+  FalconGuardian& GetGuardian() { return this->Guardian; }
 
   /// Handles events for so long [ms] or until `stop` is set.
   void HandleEvents(int duration);
@@ -119,6 +122,8 @@ private:
   bool MustStop() const { return this->Stoppable && this->Stop.load(std::memory_order_relaxed); }
 
   const std::atomic<bool>& Stop;
+  const std::string GuardianProgram;
+  FalconGuardian Guardian; // while a device is open
   bool Stoppable = true;
   libusb_context* Context = nullptr;
   libusb_device_handle* Device = nullptr;

@@ -1,6 +1,7 @@
 #include "vtkFalconHapticDevice.h"
 
 #include "haptics/Devices/Falcon/FalconChannel.h"
+#include "haptics/Devices/Falcon/FalconGuardian.h"
 #include "haptics/Devices/Falcon/FalconTransport.h"
 
 #include "vtkObjectFactory.h"
@@ -40,7 +41,8 @@ vtkTypeInt64 Load(const std::atomic<std::uint64_t>& count)
 vtkStandardNewMacro(vtkFalconHapticDevice);
 
 vtkFalconHapticDevice::vtkFalconHapticDevice()
-  : Link(std::make_shared<haptics::FalconLink>())
+  : GuardianProgram(haptics::FalconGuardian::Find())
+  , Link(std::make_shared<haptics::FalconLink>())
 {
   this->MaximumForce = 8.0;
   this->MaximumStiffness = 800.0; // up to 3000 was seen in the best case
@@ -71,6 +73,7 @@ bool vtkFalconHapticDevice::Open()
   settings.DeviceIndex = this->DeviceIndex;
   settings.FirmwareFile = this->FirmwareFile;
   settings.OpenOnArrival = this->OpenOnArrival;
+  settings.Guardian = this->GuardianProgram;
   try
   {
     this->Transport = std::make_unique<haptics::FalconTransport>(settings);
@@ -270,6 +273,7 @@ void vtkFalconHapticDevice::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "DeviceIndex: " << this->DeviceIndex << "\n";
   os << indent << "FirmwareFile: " << this->FirmwareFile << "\n";
   os << indent << "FirmwareProgress: " << this->FirmwareProgress << "\n";
+  os << indent << "GuardianProgram: " << this->GuardianProgram << "\n";
   os << indent << "OpenOnArrival: " << (this->OpenOnArrival ? "on" : "off") << "\n";
   os << indent << "TorqueScale: " << this->TorqueScale << " 1/(N m)\n";
   os << indent << "Leds: " << this->Leds << "\n";

@@ -93,6 +93,13 @@ public:
   vtkBooleanMacro(OpenOnArrival, bool);
   ///@}
   ///@{
+  /// A program that takes the torque away within 0.1 s when this process is killed, crashes or is
+  /// stopped, which no program can catch itself. By default the one that is installed with this
+  /// library (Linux); empty for none. Read by Open().
+  vtkSetMacro(GuardianProgram, std::string);
+  vtkGetMacro(GuardianProgram, std::string);
+  ///@}
+  ///@{
   /**
    * Motor units for a torque of 1 N m [1/(N m)], the sign telling which way the motors turn.
    * Default -3500; from 100 to 20,000 in magnitude, else an error and no change. Taken when the
@@ -139,6 +146,7 @@ private:
   int DeviceIndex = 0;
   std::string FirmwareFile;
   bool OpenOnArrival = false;
+  std::string GuardianProgram;
   double TorqueScale = -3500.0;
   int Leds = GreenLed;
 

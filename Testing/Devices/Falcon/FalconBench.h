@@ -19,7 +19,11 @@
 class FalconBench : public testing::Test
 {
 protected:
-  FalconBench() { this->Watch(this->Device, this->Events); }
+  FalconBench()
+  {
+    this->Watch(this->Device, this->Events);
+    this->Device->SetGuardianProgram(""); // it knows the machine's own bus only
+  }
 
   void SetUp() override
   {
