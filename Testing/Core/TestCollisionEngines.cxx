@@ -3,10 +3,12 @@
 #include "ExactEngine.h"
 #include "ExactQueries.h"
 #include "haptics/Contact/GodObject.h"
+#include "haptics/Surface/SurfaceDeformer.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 using namespace haptics;
@@ -120,6 +122,103 @@ TEST_P(Engines, StopAtAFullList)
   EXPECT_EQ(found.Count, 8);
 }
 
+namespace
+{
+/// Thin as needles, long, and at every angle.
+TriangleMesh Needles(int count, double width, unsigned seed)
+{
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> place(-1.0, 1.0);
+  TriangleMesh mesh;
+  for (std::int32_t i = 0; i < count; ++i)
+  {
+    const Vec3 from{ place(random), place(random), place(random) };
+    const Vec3 to{ place(random), place(random), place(random) };
+    const Vec3 aside{ place(random), place(random), place(random) };
+    mesh.Points.insert(mesh.Points.end(), { from, to, to + width * aside });
+    mesh.Triangles.push_back({ 3 * i, 3 * i + 1, 3 * i + 2 });
+  }
+  return mesh;
+}
+
+/// Asks for triangles by balls and segments that meet them in a corner, on an edge or inside, at
+/// every size, along axes too, and expects each to be found, once.
+void ExpectNothingLeftOut(const TriangleSurface& surface, unsigned seed)
+{
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> place(-1.0, 1.0);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  const auto last = static_cast<std::int32_t>(surface.Triangles().size()) - 1;
+  std::uniform_int_distribution<std::int32_t> pick(0, last);
+  for (int trial = 0; trial < 3000; ++trial)
+  {
+    const std::int32_t i = pick(random);
+    const auto& [a, b, c] = surface.Triangles()[i];
+    const double time = trial % 3 == 0 ? 1.0 : share(random); // where points move
+    const Vec3 from = surface.PointAt(a, time);
+    double u = share(random);
+    double v = (1.0 - u) * share(random);
+    if (trial % 5 < 2)
+    {
+      v = 0.0;
+      u = trial % 5 == 0 ? 0.0 : u;
+    }
+    const Vec3 met =
+      from + u * (surface.PointAt(b, time) - from) + v * (surface.PointAt(c, time) - from);
+    const double size = surface.Radius() * std::exp2(-30.0 * share(random));
+    Vec3 aside = size * Vec3{ place(random), place(random), place(random) };
+    if (trial % 4 == 0)
+    {
+      aside = { 0, 0, 0 };
+      aside[trial / 4 % 3] = size;
+    }
+    // Rounding of the point on the triangle, and no more: for surfaces of radius 1.
+    const double rounding = 1e-15 * surface.Radius();
+    const auto inBall = InBall(surface, met + aside, (Length(aside) + rounding) * (1.0 + 1e-14));
+    ASSERT_TRUE(std::binary_search(inBall.begin(), inBall.end(), i))
+      << "trial " << trial << ", triangle " << i << ", ball of " << Length(aside);
+    const double beyond = trial % 7 == 0 ? 0.0 : share(random);
+    const auto onSegment = OnSegment(surface, met - aside, met + beyond * aside);
+    ASSERT_TRUE(std::binary_search(onSegment.begin(), onSegment.end(), i))
+      << "trial " << trial << ", triangle " << i << ", segment of " << Length(aside);
+    ASSERT_TRUE(std::adjacent_find(onSegment.begin(), onSegment.end()) == onSegment.end());
+  }
+}
+
+TriangleMesh Twice(TriangleMesh mesh)
+{
+  const auto triangles = mesh.Triangles;
+  mesh.Triangles.insert(mesh.Triangles.end(), triangles.begin(), triangles.end());
+  return mesh;
+}
+
+TriangleMesh OfSizes()
+{
+  // One large triangle, and details of every size down to a millionth of it.
+  TriangleMesh mesh = Square(1.0);
+  for (int i = 1; i <= 20; ++i)
+  {
+    mesh = Joined(mesh, Moved(Scaled(Icosphere(1, 1.0), std::ldexp(1.0, -i)), { 0, 0, 0.5 }));
+  }
+  return mesh;
+}
+}
+
+TEST_P(Engines, LeaveNothingOut)
+{
+  const std::pair<const char*, TriangleMesh> meshes[] = { { "star", Star(4, 1.0, 0.5, 1) },
+    { "needles", Needles(500, 1e-9, 2) }, { "flat", Square(1.0, 16) },
+    { "twice the same", Twice(Twice(Icosphere(2, 1.0))) }, { "one triangle", Needles(1, 1.0, 3) },
+    { "of all sizes", OfSizes() }, { "far away", Moved(Icosphere(3, 1.0), { 1e6, -3e5, 7e5 }) },
+    { "tiny", Scaled(Soup(300, 0.2, 4), 1e-30) }, { "huge", Scaled(Soup(300, 0.2, 5), 1e30) } };
+  unsigned seed = 0;
+  for (const auto& [name, mesh] : meshes)
+  {
+    SCOPED_TRACE(name);
+    ExpectNothingLeftOut(*MakeSurface(mesh, Side::Both, GetParam()), ++seed);
+  }
+}
+
 std::string NameOf(EngineKind kind)
 {
   return kind == EngineKind::BruteForce ? "BruteForce"
@@ -130,6 +229,31 @@ std::string NameOf(EngineKind kind)
 INSTANTIATE_TEST_SUITE_P(Each, Engines,
   ::testing::Values(EngineKind::BruteForce, EngineKind::Embree, EngineKind::Exact),
   [](const auto& info) { return NameOf(info.param); });
+
+TEST(Engines, LeaveNothingOutWherePointsMove)
+{
+  const TriangleMesh mesh = Star(3, 1.0, 0.3, 1);
+  for (const EngineKind kind : { EngineKind::BruteForce, EngineKind::Embree })
+  {
+    SCOPED_TRACE(NameOf(kind));
+    SurfaceDeformer deformer(MakeSurface(mesh, Side::Both, kind));
+    std::mt19937 random(6);
+    std::uniform_real_distribution<double> place(-1.0, 1.0);
+    for (unsigned step = 0; step < 6; ++step)
+    {
+      std::vector<Vec3> points = mesh.Points;
+      for (Vec3& p : points)
+      {
+        p = p + 0.1 * step * Vec3{ place(random), place(random), place(random) };
+      }
+      std::string error;
+      const auto surface = deformer.Deform(std::move(points), 0.01, error);
+      ASSERT_TRUE(surface) << error;
+      SCOPED_TRACE(step);
+      ExpectNothingLeftOut(*surface, step);
+    }
+  }
+}
 
 TEST(Engines, LeadToTheSameContact)
 {

@@ -157,7 +157,8 @@ TEST(DeformingSurfaces, WavesCarryAHandAndNeverPassIt)
   // The waves move a point by 2.5 mm times 20 rad/s: 50 um a tick, and a slope takes some more.
   EXPECT_LT(most, 2e-4);
   EXPECT_GT(most, 2e-5);
-  EXPECT_LE(ball.Deformer.NumberOfBuilds(), 3); // the rest was refitted
+  EXPECT_LE(
+    ball.Deformer.NumberOfBuilds(), 1); // where the waves are highest; the rest was refitted
 }
 
 TEST(DeformingSurfaces, EnginesFindTrianglesWhereverTheyPass)

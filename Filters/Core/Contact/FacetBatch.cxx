@@ -1,5 +1,7 @@
 #include "haptics/Contact/FacetBatch.h"
 
+#include "haptics/Math/VectorClones.h"
+
 #include <cmath>
 
 namespace haptics
@@ -27,6 +29,7 @@ inline double SquaredGap(double x, double low, double high)
 }
 }
 
+HAPTICS_VECTOR_CLONES
 void FacetBatch::Answer(std::int32_t count, const Question& question)
 {
   const double* const ax = this->A[0].data();

@@ -45,6 +45,11 @@ public:
     return true;
   }
 
+  std::unique_ptr<CollisionEngine> Clone() const override
+  {
+    return std::make_unique<BruteForceEngine>(*this);
+  }
+
   EngineKind Kind() const noexcept override { return EngineKind::BruteForce; }
   std::size_t MemoryBytes() const noexcept override
   {

@@ -17,7 +17,7 @@ enum class EngineKind
 {
   Automatic,  ///< BruteForce on a surface of few triangles, else Embree
   BruteForce, ///< looks at every triangle: the reference, and the fastest on tiny surfaces
-  Embree,     ///< Intel Embree's bounding volume hierarchy
+  Embree,     ///< a bounding volume hierarchy of eight boxes a node, which Intel Embree builds
   Exact       ///< CGAL's tree: the oracle; only where HapticsExactEngineGPL is loaded
 };
 
@@ -52,7 +52,6 @@ struct EngineInput
   /// Where points come from that are on their way: a triangle is found where it passes. Null: none
   /// moves. Engines that cannot Refit() do not look at it.
   const std::vector<Vec3>* StartPoints = nullptr;
-  bool IsRefitted = false; ///< Refit() will be called
 };
 
 /// @brief Proposes the triangles that a contact update has to look at.
@@ -82,6 +81,10 @@ public:
     (void)input;
     return false;
   }
+
+  /// A copy to Refit(), for far less than an engine takes to make. Null where this kind cannot.
+  /// Throws std::bad_alloc.
+  virtual std::unique_ptr<CollisionEngine> Clone() const { return nullptr; }
 
   virtual EngineKind Kind() const noexcept = 0;
   /// Bytes held beyond the surface's own points and triangles.

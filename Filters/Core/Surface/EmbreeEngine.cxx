@@ -1,7 +1,7 @@
-// The only file that knows Embree: releases 3 and 4 differ in how a query gets its callback.
+// The only file that knows Embree.
 #include "haptics/Surface/EmbreeEngine.h"
 
-#include "haptics/Math/VectorMath.h"
+#include "haptics/Surface/WideBvh.h"
 
 #if HAPTICS_EMBREE_VERSION >= 4
 #include <embree4/rtcore.h>
@@ -9,240 +9,240 @@
 #include <embree3/rtcore.h>
 #endif
 
-#include <glm/common.hpp>
-#include <glm/vec4.hpp>
-
-#include <atomic>
+#include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <new>
+#include <utility>
 
 namespace haptics
 {
 namespace
 {
-/// Embree works in float32. The surface is scaled by a power of two (exact) so that no coordinate
-/// is above 1, and every box is padded by this much: 16 roundings of a coordinate of 1, where a
-/// slab test of a box against a rounded ray errs by fewer than 4, and a distance test by as many.
-constexpr double Pad = 0x1p-20;
+constexpr unsigned Width = WideBvhNode::Width;
 
-#if HAPTICS_EMBREE_VERSION >= 4
-using RayContext = RTCRayQueryContext;
-#else
-using RayContext = RTCIntersectContext;
-#endif
-
-/// Embree hands the first member back to the callback, and with it the list.
-struct SegmentQuery
+/// What Embree's builder makes: a node of child nodes, or a leaf of triangles.
+struct BuiltNode
 {
-  RayContext Context;
-  TriangleList* Found;
+  unsigned Count;
+  bool IsLeaf;
+  union
+  {
+    BuiltNode* Children[Width];
+    std::int32_t Triangles[Width];
+  };
 };
 
-bool CollectFromBall(RTCPointQueryFunctionArguments* query)
+BuiltNode* Allocate(RTCThreadLocalAllocator allocator)
 {
-  auto* found = static_cast<TriangleList*>(query->userPtr);
-  if (found->Add(static_cast<std::int32_t>(query->primID)))
+  return static_cast<BuiltNode*>(
+    rtcThreadLocalAlloc(allocator, sizeof(BuiltNode), alignof(BuiltNode)));
+}
+
+void* CreateNode(RTCThreadLocalAllocator allocator, unsigned count, void*)
+{
+  BuiltNode* const node = Allocate(allocator);
+  node->Count = count;
+  node->IsLeaf = false;
+  return node;
+}
+
+void SetChildren(void* node, void** children, unsigned count, void*)
+{
+  std::transform(children, children + count, static_cast<BuiltNode*>(node)->Children,
+    [](void* child) { return static_cast<BuiltNode*>(child); });
+}
+
+/// WideBvh::Fit() works out the boxes, when built as when points have moved.
+void SetBounds(void*, const RTCBounds**, unsigned, void*) {}
+
+void* CreateLeaf(
+  RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives, std::size_t count, void*)
+{
+  BuiltNode* const leaf = Allocate(allocator);
+  leaf->Count = static_cast<unsigned>(count);
+  leaf->IsLeaf = true;
+  std::transform(primitives, primitives + count, leaf->Triangles,
+    [](const RTCBuildPrimitive& primitive) { return static_cast<std::int32_t>(primitive.primID); });
+  return leaf;
+}
+
+std::vector<RTCBuildPrimitive> TriangleBoxes(const EngineInput& input)
+{
+  std::vector<RTCBuildPrimitive> boxes(input.Triangles.size());
+  // Embree rejects boxes beyond 1e18: points are taken in radii.
+  const double scale = 1.0 / input.Radius;
+  for (std::size_t i = 0; i < boxes.size(); ++i)
   {
-    return false;
+    float low[3];
+    float high[3];
+    for (int k = 0; k < 3; ++k)
+    {
+      const auto& t = input.Triangles[i];
+      const auto [least, most] =
+        std::minmax({ input.Points[t[0]][k], input.Points[t[1]][k], input.Points[t[2]][k] });
+      low[k] = static_cast<float>(least * scale);
+      high[k] = static_cast<float>(most * scale);
+    }
+    boxes[i] = { low[0], low[1], low[2], 0u, high[0], high[1], high[2], static_cast<unsigned>(i) };
   }
-  query->query->radius = 0.0f; // the list is full: nothing more is of use
+  return boxes;
+}
+
+/// Puts what Embree has built in one array, and small leaves into their parents where there is
+/// room. False where the tree is too deep.
+bool Flatten(const BuiltNode& root, std::size_t triangles, WideBvh& tree)
+{
+  struct Task
+  {
+    const BuiltNode* From;
+    std::uint32_t To;
+    int Depth;
+  };
+  tree.Nodes.reserve(triangles / 4 + 1);
+  tree.Order.reserve(triangles);
+  tree.Nodes.emplace_back();
+  std::vector<Task> tasks{ { &root, 0, 1 } };
+  while (!tasks.empty())
+  {
+    const Task task = tasks.back();
+    tasks.pop_back();
+    if (task.Depth > WideBvh::LargestDepth)
+    {
+      return false;
+    }
+    const BuiltNode* nodes[Width];
+    unsigned numberOfNodes = 0;
+    const auto firstTriangle = static_cast<std::uint32_t>(tree.Order.size());
+    const auto take = [&](const BuiltNode& leaf)
+    { tree.Order.insert(tree.Order.end(), leaf.Triangles, leaf.Triangles + leaf.Count); };
+    if (task.From->IsLeaf)
+    {
+      take(*task.From);
+    }
+    else
+    {
+      const BuiltNode* children[Width];
+      const unsigned count = task.From->Count;
+      std::copy(task.From->Children, task.From->Children + count, children);
+      const auto weight = [](const BuiltNode* node)
+      { return node->IsLeaf ? node->Count : Width + 1; };
+      std::stable_sort(children, children + count,
+        [&](const BuiltNode* a, const BuiltNode* b) { return weight(a) < weight(b); });
+      unsigned lanes = count;
+      for (unsigned i = 0; i < count; ++i)
+      {
+        if (children[i]->IsLeaf && lanes - 1 + children[i]->Count <= Width)
+        {
+          lanes += children[i]->Count - 1;
+          take(*children[i]);
+        }
+        else
+        {
+          nodes[numberOfNodes++] = children[i];
+        }
+      }
+    }
+    const auto firstNode = static_cast<std::uint32_t>(tree.Nodes.size());
+    tree.Nodes.resize(tree.Nodes.size() + numberOfNodes);
+    WideBvhNode& node = tree.Nodes[task.To];
+    node.FirstNode = firstNode;
+    node.FirstTriangle = firstTriangle;
+    node.NumberOfNodes = static_cast<std::uint8_t>(numberOfNodes);
+    node.NumberOfTriangles = static_cast<std::uint8_t>(tree.Order.size() - firstTriangle);
+    for (unsigned i = 0; i < numberOfNodes; ++i)
+    {
+      tasks.push_back({ nodes[i], firstNode + i, task.Depth + 1 });
+    }
+  }
+  tree.Nodes.shrink_to_fit();
   return true;
 }
 
-void CollectFromSegment(const RTCOccludedFunctionNArguments* query)
+template <class Handle>
+using Owner = std::unique_ptr<Handle, void (*)(Handle*)>;
+
+/// False where memory ran out.
+bool BuildWithEmbree(const EngineInput& input, WideBvh& tree)
 {
-  if (!query->valid[0])
-  {
-    return;
-  }
-  auto* segment = reinterpret_cast<SegmentQuery*>(query->context);
-  if (!segment->Found->Add(static_cast<std::int32_t>(query->primID)))
-  {
-    RTCRayN_tfar(query->ray, query->N, 0) = -HUGE_VALF; // occluded: ends the traversal
-  }
+  std::vector<RTCBuildPrimitive> boxes = TriangleBoxes(input);
+  const Owner<RTCDeviceTy> device(rtcNewDevice(nullptr), rtcReleaseDevice);
+  const Owner<RTCBVHTy> bvh(rtcNewBVH(device.get()), rtcReleaseBVH);
+  RTCBuildArguments arguments = rtcDefaultBuildArguments();
+  arguments.maxBranchingFactor = Width;
+  arguments.sahBlockSize = Width;
+  arguments.maxLeafSize = Width;
+  arguments.bvh = bvh.get();
+  arguments.primitives = boxes.data();
+  arguments.primitiveCount = boxes.size();
+  arguments.primitiveArrayCapacity = boxes.size();
+  arguments.createNode = CreateNode;
+  arguments.setNodeChildren = SetChildren;
+  arguments.setNodeBounds = SetBounds;
+  arguments.createLeaf = CreateLeaf;
+  const auto* const root = static_cast<const BuiltNode*>(rtcBuildBVH(&arguments));
+  return root && rtcGetDeviceError(device.get()) == RTC_ERROR_NONE &&
+    Flatten(*root, boxes.size(), tree);
 }
-
-/// The bounds of a point, or of the way that it goes, in Embree's frame, as a triangle's are made
-/// of them: rounding keeps the order, so that it does not matter which is done first.
-struct PointBounds
-{
-  glm::vec4 Low, High; // laid out as in RTCBounds, the last is not used
-};
-
-/// Whether the program ends, and Embree's static objects with it. What outlives them, as
-/// ParaView's session does in a script that ends by sys.exit(), must not call Embree any more. Made
-/// after Embree has made its own, this one goes before them.
-class EmbreeLife
-{
-public:
-  ~EmbreeLife() { Over = true; }
-  static bool IsOver() { return Over; }
-
-private:
-  static inline std::atomic<bool> Over{ false };
-};
 
 class EmbreeEngine final : public CollisionEngine
 {
 public:
-  explicit EmbreeEngine(const EngineInput& input)
-    : Device(rtcNewDevice(nullptr))
+  explicit EmbreeEngine(WideBvh tree)
+    : Tree(std::move(tree))
   {
-    this->Take(input);
-    rtcSetDeviceMemoryMonitorFunction(this->Device, CountBytes, this);
-    this->Scene = rtcNewScene(this->Device);
-    rtcSetSceneFlags(this->Scene, RTC_SCENE_FLAG_ROBUST);
-    this->Geometry = rtcNewGeometry(this->Device, RTC_GEOMETRY_TYPE_USER);
-    rtcSetGeometryUserPrimitiveCount(
-      this->Geometry, static_cast<unsigned>(this->Triangles->size()));
-    rtcSetGeometryUserData(this->Geometry, this);
-    rtcSetGeometryBoundsFunction(this->Geometry, ComputeBounds, nullptr);
-    rtcSetGeometryOccludedFunction(this->Geometry, CollectFromSegment);
-    if (input.IsRefitted)
-    {
-      // Only a scene of low quality keeps a hierarchy of its own for each geometry; that one is of
-      // the usual quality, and a refit takes a twentieth of the time of building it.
-      rtcSetSceneFlags(
-        this->Scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC));
-      rtcSetSceneBuildQuality(this->Scene, RTC_BUILD_QUALITY_LOW);
-      rtcSetGeometryBuildQuality(this->Geometry, RTC_BUILD_QUALITY_REFIT);
-    }
-    rtcCommitGeometry(this->Geometry);
-    rtcAttachGeometry(this->Scene, this->Geometry);
-    rtcReleaseGeometry(this->Geometry); // the scene keeps it
-    rtcCommitScene(this->Scene);
-    if (!input.IsRefitted)
-    {
-      std::vector<PointBounds>().swap(this->Bounds); // an assignment would keep its memory
-    }
-    static const EmbreeLife life;
-  }
-
-  ~EmbreeEngine() override
-  {
-    if (!EmbreeLife::IsOver())
-    {
-      rtcReleaseScene(this->Scene);
-      rtcReleaseDevice(this->Device);
-    }
-  }
-
-  EmbreeEngine(const EmbreeEngine&) = delete;
-  EmbreeEngine& operator=(const EmbreeEngine&) = delete;
-
-  /// False when Embree could not build, as when memory ran out.
-  bool IsBuilt() const { return rtcGetDeviceError(this->Device) == RTC_ERROR_NONE; }
-
-  bool Refit(const EngineInput& input) override
-  {
-    this->Take(input);
-    rtcCommitGeometry(this->Geometry);
-    rtcCommitScene(this->Scene);
-    return this->IsBuilt();
   }
 
   void FindInBall(const Vec3& centre, double radius, TriangleList& found) const noexcept override
   {
-    RTCPointQuery query{};
-    query.x = static_cast<float>(centre[0] * this->Scale);
-    query.y = static_cast<float>(centre[1] * this->Scale);
-    query.z = static_cast<float>(centre[2] * this->Scale);
-    query.radius = static_cast<float>(radius * this->Scale * (1.0 + Pad));
-    RTCPointQueryContext context;
-    rtcInitPointQueryContext(&context);
-    rtcPointQuery(this->Scene, &query, &context, CollectFromBall, &found);
+    this->Tree.FindInBall(centre, radius, found);
   }
 
   void FindOnSegment(const Vec3& from, const Vec3& to, TriangleList& found) const noexcept override
   {
-    const Vector origin = ToVector(from) * this->Scale;
-    const Vector direction = ToVector(to) * this->Scale - origin;
-    RTCRay ray{};
-    ray.org_x = static_cast<float>(origin.x);
-    ray.org_y = static_cast<float>(origin.y);
-    ray.org_z = static_cast<float>(origin.z);
-    ray.dir_x = static_cast<float>(direction.x);
-    ray.dir_y = static_cast<float>(direction.y);
-    ray.dir_z = static_cast<float>(direction.z);
-    ray.tnear = 0.0f;
-    ray.tfar = 1.0f;
-    ray.mask = ~0u;
-    SegmentQuery query;
-    query.Found = &found;
-#if HAPTICS_EMBREE_VERSION >= 4
-    rtcInitRayQueryContext(&query.Context);
-    RTCOccludedArguments arguments;
-    rtcInitOccludedArguments(&arguments);
-    arguments.context = &query.Context;
-    rtcOccluded1(this->Scene, &ray, &arguments);
-#else
-    rtcInitIntersectContext(&query.Context);
-    rtcOccluded1(this->Scene, &query.Context, &ray);
-#endif
+    this->Tree.FindOnSegment(from, to, found);
   }
 
-  EngineKind Kind() const noexcept override
+  bool Refit(const EngineInput& input) override
   {
-    return EngineKind::Embree;
-  }
-  std::size_t MemoryBytes() const noexcept override
-  {
-    return static_cast<std::size_t>(this->Bytes.load()) +
-      this->Bounds.capacity() * sizeof(PointBounds);
-  }
-
-private:
-  void Take(const EngineInput& input)
-  {
-    this->Triangles = &input.Triangles;
-    this->Scale = std::exp2(-std::ceil(std::log2(input.Radius)));
-    const double pad = Pad + input.Margin * this->Scale;
-    // Each corner belongs to about six triangles: its part is worked out once.
-    this->Bounds.resize(input.Points.size());
-    for (std::size_t i = 0; i < this->Bounds.size(); ++i)
+    try
     {
-      const Vector to = ToVector(input.Points[i]) * this->Scale;
-      const Vector from = input.StartPoints ? ToVector((*input.StartPoints)[i]) * this->Scale : to;
-      this->Bounds[i].Low = glm::vec4(glm::min(from, to) - pad, 0.0);
-      this->Bounds[i].High = glm::vec4(glm::max(from, to) + pad, 0.0);
+      this->Tree.Fit(input);
+      return true;
+    }
+    catch (const std::bad_alloc&)
+    {
+      return false;
     }
   }
 
-  static void ComputeBounds(const RTCBoundsFunctionArguments* arguments)
+  std::unique_ptr<CollisionEngine> Clone() const override
   {
-    const auto* self = static_cast<const EmbreeEngine*>(arguments->geometryUserPtr);
-    const auto& t = (*self->Triangles)[arguments->primID];
-    const PointBounds& a = self->Bounds[t[0]];
-    const PointBounds& b = self->Bounds[t[1]];
-    const PointBounds& c = self->Bounds[t[2]];
-    const glm::vec4 low = glm::min(glm::min(a.Low, b.Low), c.Low);
-    const glm::vec4 high = glm::max(glm::max(a.High, b.High), c.High);
-    // Embree reads four numbers at once, which waits for four that were written one by one.
-    std::memcpy(&arguments->bounds_o->lower_x, &low, sizeof(low));
-    std::memcpy(&arguments->bounds_o->upper_x, &high, sizeof(high));
+    return std::make_unique<EmbreeEngine>(this->Tree);
   }
 
-  static bool CountBytes(void* self, ssize_t bytes, bool)
-  {
-    static_cast<EmbreeEngine*>(self)->Bytes += bytes;
-    return true;
-  }
+  EngineKind Kind() const noexcept override { return EngineKind::Embree; }
+  std::size_t MemoryBytes() const noexcept override { return this->Tree.MemoryBytes(); }
 
-  // Read while Embree builds, and never by a query.
-  const std::vector<std::array<std::int32_t, 3>>* Triangles = nullptr;
-  std::vector<PointBounds> Bounds; ///< empty where no refit will come
-
-  double Scale = 1.0; ///< surface's local frame to Embree's
-  std::atomic<std::ptrdiff_t> Bytes{ 0 };
-  RTCDevice Device;
-  RTCScene Scene = nullptr;
-  RTCGeometry Geometry = nullptr;
+private:
+  WideBvh Tree;
 };
 }
 
 std::unique_ptr<CollisionEngine> MakeEmbreeEngine(const EngineInput& input)
 {
-  auto engine = std::make_unique<EmbreeEngine>(input);
-  return engine->IsBuilt() ? std::move(engine) : nullptr;
+  try
+  {
+    WideBvh tree;
+    if (!BuildWithEmbree(input, tree))
+    {
+      return nullptr;
+    }
+    tree.Fit(input);
+    return std::make_unique<EmbreeEngine>(std::move(tree));
+  }
+  catch (const std::bad_alloc&)
+  {
+    return nullptr;
+  }
 }
 }

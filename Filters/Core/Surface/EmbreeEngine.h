@@ -5,7 +5,7 @@
 
 namespace haptics
 {
-/// Intel Embree's bounding volume hierarchy over padded triangle bounds.
+/// A WideBvh whose order Intel Embree's builder chooses (surface area heuristic, in parallel).
 std::unique_ptr<CollisionEngine> MakeEmbreeEngine(const EngineInput& input);
 }
 

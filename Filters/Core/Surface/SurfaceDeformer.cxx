@@ -84,6 +84,12 @@ struct SurfaceDeformer::Engine
       : sum * LargestGroup / static_cast<double>(this->Groups.size()) / input.Radius;
   }
 
+  /// Whether what was taken together is still close together.
+  bool HasOrder(const EngineInput& input) const
+  {
+    return this->Collision && this->Size(input) <= LargestGrowthOfGroups * this->SizeWhenBuilt;
+  }
+
   /// Chooses groups of triangles that the new engine finds close together.
   void Watch(const EngineInput& input)
   {
@@ -136,11 +142,28 @@ std::shared_ptr<SurfaceDeformer::Engine> SurfaceDeformer::Borrow()
   return this->Engines.back();
 }
 
+/// Takes the order of the engine that the latest snapshot has. Throws std::bad_alloc.
+void SurfaceDeformer::CopyLatest(Engine& engine) const
+{
+  engine.Collision = this->Current->Engine().Clone();
+  if (this->LatestEngine)
+  {
+    engine.Groups = this->LatestEngine->Groups;
+    engine.SizeWhenBuilt = this->LatestEngine->SizeWhenBuilt;
+  }
+  else
+  {
+    engine.Watch(this->Current->Input());
+  }
+}
+
 bool SurfaceDeformer::Fit(Engine& engine, const EngineInput& input)
 {
-  const bool hasOrder =
-    engine.Collision && engine.Size(input) <= LargestGrowthOfGroups * engine.SizeWhenBuilt;
-  if (hasOrder)
+  if (!engine.HasOrder(input))
+  {
+    this->CopyLatest(engine);
+  }
+  if (engine.HasOrder(input))
   {
     return engine.Collision->Refit(input);
   }
@@ -211,13 +234,14 @@ std::shared_ptr<const TriangleSurface> SurfaceDeformer::Make(
     return nullptr;
   }
   const std::shared_ptr<Engine> engine = this->Borrow();
-  if (!this->Fit(*engine, next->Input(true)))
+  if (!this->Fit(*engine, next->Input()))
   {
     engine->Collision = nullptr; // made anew next time
     error = "memory ran out while the collision engine was fitted";
     return nullptr;
   }
   engine->IsFree.store(false, std::memory_order_relaxed);
+  this->LatestEngine = engine;
   next->Collision = std::shared_ptr<CollisionEngine>(engine->Collision.get(),
     [engine](CollisionEngine*) { engine->IsFree.store(true, std::memory_order_release); });
   this->Current = next;

@@ -21,9 +21,10 @@ namespace haptics
 /// (GodObject::HasArrived()). One that was left out is a surface that has changed all at once:
 /// contact goes on from where it stood, but with a step.
 ///
-/// An engine is refitted to where triangles pass, in a few milliseconds for 100,000 of them, and
-/// built anew where it has lost its order. Engines of snapshots that nobody holds any more are used
-/// again, so two are made in all, or three where those are deleted late.
+/// An engine is refitted to where triangles pass, in a few milliseconds for 100,000 of them: a copy
+/// of the given surface's at first, and one built anew where it has lost its order. Engines of
+/// snapshots that nobody holds any more are used again, so two are made in all, or three where
+/// those are deleted late.
 ///
 /// One thread at a time.
 class VTKHAPTICSCORE_EXPORT SurfaceDeformer
@@ -58,10 +59,12 @@ private:
   std::shared_ptr<const TriangleSurface> Make(
     std::vector<Vec3> points, double duration, bool follows, std::string& error);
   std::shared_ptr<Engine> Borrow();
+  void CopyLatest(Engine& engine) const;
   bool Fit(Engine& engine, const EngineInput& input);
 
   std::shared_ptr<const TriangleSurface> Current;
   std::vector<std::shared_ptr<Engine>> Engines;
+  std::shared_ptr<Engine> LatestEngine; ///< of Current; null as long as that is the given one
   int Builds = 0;
 };
 }

@@ -164,10 +164,10 @@ bool TriangleSurface::Measure(const TriangleSurface* start)
   return this->EndLongestEdge > 0.0;
 }
 
-EngineInput TriangleSurface::Input(bool isRefitted) const
+EngineInput TriangleSurface::Input() const
 {
   return { this->Points(), this->Triangles(), this->SurfaceRadius,
-    LargestGrowth(this->MinimumClearance, this->LongestEdge), this->StartPoints(), isRefitted };
+    LargestGrowth(this->MinimumClearance, this->LongestEdge), this->StartPoints() };
 }
 
 std::shared_ptr<const TriangleSurface> TriangleSurface::Build(
@@ -193,7 +193,7 @@ std::shared_ptr<const TriangleSurface> TriangleSurface::Build(
   topology->Found = AnalyseSurface(surface->Points(), topology->Triangles, topology->Adjacent);
   surface->Touched =
     ChooseSides(surface->Points(), std::move(mesh.Sides), options.TouchedSide, *topology);
-  surface->Collision = MakeEngine(options.Engine, surface->Input(false));
+  surface->Collision = MakeEngine(options.Engine, surface->Input());
   if (!surface->Collision)
   {
     error = options.Engine == EngineKind::Exact

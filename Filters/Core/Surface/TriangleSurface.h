@@ -169,7 +169,7 @@ private:
   /// Works out radius, longest edge and clearance; `start`: what it deforms from, or null. False
   /// where no triangle has an area.
   bool Measure(const TriangleSurface* start);
-  EngineInput Input(bool isRefitted) const;
+  EngineInput Input() const;
 
   /// A snapshot's are the next one's start.
   std::shared_ptr<const std::vector<Vec3>> LocalPoints, Start;
