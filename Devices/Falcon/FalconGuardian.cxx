@@ -84,8 +84,7 @@ bool FalconGuardian::Start(const std::string& program, const std::string& device
 {
   this->Stop();
   std::array<int, 2> ends{};
-  if (program.empty() ||
-    socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
+  if (program.empty() || socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
   {
     return false;
   }
@@ -95,8 +94,8 @@ bool FalconGuardian::Start(const std::string& program, const std::string& device
   std::string parent = std::to_string(getpid());
   std::array<char*, 4> arguments{ name.data(), file.data(), parent.data(), nullptr };
   pid_t process = 0;
-  const int failure = posix_spawn(&process, program.c_str(), &settings.Actions,
-    &settings.Attributes, arguments.data(), environ);
+  const int failure = posix_spawn(
+    &process, program.c_str(), &settings.Actions, &settings.Attributes, arguments.data(), environ);
   close(ends[1]);
   if (failure != 0)
   {

@@ -14,8 +14,8 @@ namespace haptics
 ///                                                             stopped, while it pushes
 ///
 /// For what no program can catch: SIGKILL, SIGSTOP, a crash, _exit(). Looks every 20 ms while the
-/// device pushes, and sleeps else. Takes the device from the stopped process, which afterwards finds
-/// it lost. For the thread of a FalconUsb, but for Find().
+/// device pushes, and sleeps else. Takes the device from the stopped process, which afterwards
+/// finds it lost. For the thread of a FalconUsb, but for Find().
 class VTKHAPTICSDEVICES_EXPORT FalconGuardian
 {
 public:

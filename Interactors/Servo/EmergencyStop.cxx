@@ -142,7 +142,8 @@ void HandleSignal(int signal, siginfo_t* information, void* context)
   errno = error;
 }
 
-/// Of a signal that nobody handles: ends the process as it would have.
+/// Of a signal that nobody handles: ends the process as it would have. A thread that has crashed
+/// and is the servo's own may crash again here, which ends the process at once.
 void HandleFatalSignal(int signal)
 {
   const int error = errno;
@@ -202,6 +203,10 @@ void TakeUnhandledSignals()
     TakeUnhandledSignal(signal, HandleFatalSignal);
   }
   TakeUnhandledSignal(SIGABRT, HandleFatalSignal);
+  for (const int signal : CrashSignals)
+  {
+    TakeUnhandledSignal(signal, HandleFatalSignal);
+  }
   for (const int signal : StoppingSignals)
   {
     TakeUnhandledSignal(signal, HandleStoppingSignal);

@@ -174,6 +174,36 @@ TEST_F(EmergencyStop, ABrokenPipeDoesToo)
   EXPECT_EQ(WTERMSIG(status), SIGPIPE);
 }
 
+#if !defined(__SANITIZE_ADDRESS__) &&                                                              \
+  !defined(__SANITIZE_THREAD__) // they have handlers of their own
+TEST_F(EmergencyStop, ACrashDoesTooAndEndsTheProcessAsItWouldHave)
+{
+  for (const int signal : { SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGSYS })
+  {
+    this->Device->Force = 0.0;
+    const int status = EndWhilePressing(*this->Device, [signal](SharedDevice&) { raise(signal); });
+    EXPECT_TRUE(WIFSIGNALED(status)) << signal;
+    EXPECT_EQ(WTERMSIG(status), signal);
+    EXPECT_EQ(this->Device->Force, 0.0) << signal;
+  }
+  // A real one, in a thread of the program's.
+  this->Device->Force = 0.0;
+  const int status = EndWhilePressing(*this->Device,
+    [](SharedDevice&)
+    {
+      std::thread crasher(
+        []
+        {
+          volatile int* nowhere = nullptr;
+          *nowhere = 1;
+        });
+      crasher.join();
+    });
+  EXPECT_TRUE(WIFSIGNALED(status));
+  EXPECT_EQ(WTERMSIG(status), SIGSEGV);
+}
+#endif
+
 TEST_F(EmergencyStop, AbortAndQuickExitDoToo)
 {
   int status = EndWhilePressing(*this->Device, [](SharedDevice&) { std::abort(); });

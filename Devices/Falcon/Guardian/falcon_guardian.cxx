@@ -1,6 +1,6 @@
 // Takes a Falcon's torque away when the process that drives it has ended or was stopped: see
-// haptics::FalconGuardian, which starts it. Standard input has what that process says last: '1', the
-// device pushes; '0', it does not; 'q', go.
+// haptics::FalconGuardian, which starts it. Standard input has what that process says last: '1',
+// the device pushes; '0', it does not; 'q', go.
 #include "haptics/Devices/Falcon/FalconPacket.h"
 
 #include <array>

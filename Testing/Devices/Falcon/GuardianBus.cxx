@@ -1,6 +1,6 @@
 // The USB bus that the guardian under test meets: open() and ioctl() for device files, in place of
-// the system's. Writes what the device would get to the file that HAPTICS_GUARDIAN_LOG names: "claim",
-// and the bytes of each packet in hexadecimal digits, a line each.
+// the system's. Writes what the device would get to the file that HAPTICS_GUARDIAN_LOG names:
+// "claim", and the bytes of each packet in hexadecimal digits, a line each.
 #include <cerrno>
 #include <cstdarg>
 #include <cstdio>
@@ -9,8 +9,8 @@
 
 #include <fcntl.h>
 #include <linux/usbdevice_fs.h>
-#include <sys/mman.h>
 #include <sys/ioctl.h>
+#include <sys/mman.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -34,8 +34,8 @@ extern "C" int open(const char* path, int flags, ...)
   if (std::strncmp(path, "/dev/bus/usb/", 13) == 0)
   {
     // What a device file begins with: the device's descriptor.
-    const unsigned char descriptor[18] = { 18, 1, 0, 2, 0, 0, 0, 64, 0x03, 0x04, 0x48, 0xcb, 0, 4, 1,
-      2, 0, 1 };
+    const unsigned char descriptor[18] = { 18, 1, 0, 2, 0, 0, 0, 64, 0x03, 0x04, 0x48, 0xcb, 0, 4,
+      1, 2, 0, 1 };
     Device = memfd_create("falcon", 0);
     if (write(Device, descriptor, sizeof(descriptor)) < 0)
     {
