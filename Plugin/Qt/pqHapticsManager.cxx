@@ -4,17 +4,24 @@
 #include "pqApplicationCore.h"
 #include "pqCoreUtilities.h"
 #include "pqDataRepresentation.h"
+#include "pqHapticsBrush.h"
+#include "pqHapticsRecorder.h"
 #include "pqOutputPort.h"
 #include "pqPipelineSource.h"
+#include "pqQVTKWidget.h"
 #include "pqRenderView.h"
 #include "pqServer.h"
+#include "pqServerManagerModel.h"
 #include "pqServerManagerObserver.h"
 #include "pqSettings.h"
 #include "pqUndoStack.h"
 #include "vtkHapticDevice.h"
 #include "vtkHapticScene.h"
+#include "vtkMouseHapticDevice.h"
 #include "vtkNew.h"
+#include "vtkPVDataInformation.h"
 #include "vtkPVHapticScene.h"
+#include "vtkPVRenderView.h"
 #include "vtkSMParaViewPipelineControllerWithRendering.h"
 #include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
@@ -37,15 +44,35 @@
 namespace
 {
 constexpr const char* Group = "haptics";
-constexpr const char* HapticSurface = "Haptic Surface";
+const std::string HapticSurface = "Haptic Surface";
 constexpr const char* DeviceSetting = "Haptics/Device";
 
-/// Whether a representation is of the type that can be touched.
+constexpr int RestTime = 250; // [ms] without change, after which the picture is drawn in full
+
+/// Whether a representation can be touched, as it is drawn or beside.
 bool isHaptic(vtkSMProxy* representation)
 {
-  return representation && representation->GetProperty("Representation") &&
-    HapticSurface ==
-    std::string(vtkSMPropertyHelper(representation, "Representation").GetAsString());
+  const bool hasTypes = representation && representation->GetProperty("Representation");
+  return hasTypes &&
+    ((representation->GetProperty("Touchable") &&
+       vtkSMPropertyHelper(representation, "Touchable").GetAsInt() != 0) ||
+      HapticSurface == vtkSMPropertyHelper(representation, "Representation").GetAsString());
+}
+
+/// The outputs that are selected in the pipeline browser.
+QList<pqOutputPort*> selectedPorts()
+{
+  QList<pqOutputPort*> ports;
+  for (pqServerManagerModelItem* item : pqActiveObjects::instance().selection())
+  {
+    auto* source = qobject_cast<pqPipelineSource*>(item);
+    auto* port = source ? source->getOutputPort(0) : qobject_cast<pqOutputPort*>(item);
+    if (port)
+    {
+      ports.append(port);
+    }
+  }
+  return ports;
 }
 
 /// What an engaged hand does is no edit of the user's: there is nothing to undo.
@@ -69,8 +96,20 @@ pqHapticsManager* pqHapticsManager::instance()
 
 pqHapticsManager::pqHapticsManager(QObject* parent)
   : Superclass(parent)
+  , Recorder(new pqHapticsRecorder(this))
 {
   this->setObjectName("HapticsManager");
+  new pqHapticsBrush(this);
+  this->Resting.setSingleShot(true);
+  this->Resting.setInterval(RestTime);
+  this->connect(&this->Resting, &QTimer::timeout, this,
+    [this]
+    {
+      if (this->View)
+      {
+        this->View->render();
+      }
+    });
   this->Timer.setObjectName("HapticsTimer");
   this->Timer.setInterval(1000 / MaximumRate + 1);
   this->connect(&this->Timer, &QTimer::timeout, this, &pqHapticsManager::poll);
@@ -78,6 +117,12 @@ pqHapticsManager::pqHapticsManager(QObject* parent)
   // No force stays on a device whose program ends.
   this->connect(QCoreApplication::instance(), &QCoreApplication::aboutToQuit, this,
     [this] { this->setEngaged(false); });
+
+  pqActiveObjects* active = &pqActiveObjects::instance();
+  this->connect(active, &pqActiveObjects::selectionChanged, this, &pqHapticsManager::choiceChanged);
+  this->connect(active, &pqActiveObjects::viewChanged, this, &pqHapticsManager::choiceChanged);
+  this->connect(active, &pqActiveObjects::dataUpdated, this, &pqHapticsManager::choiceChanged);
+  this->connect(this, &pqHapticsManager::engagedChanged, this, &pqHapticsManager::choiceChanged);
 
   // A state file or a script may bring a scene, or take it away.
   pqServerManagerObserver* observer = pqApplicationCore::instance()->getServerManagerObserver();
@@ -110,6 +155,74 @@ vtkHapticScene* pqHapticsManager::hand() const
 {
   vtkPVHapticScene* scene = this->clientScene();
   return scene ? scene->GetScene() : nullptr;
+}
+
+vtkMouseHapticDevice* pqHapticsManager::mouse() const
+{
+  vtkHapticScene* hand = this->hand();
+  return hand ? vtkMouseHapticDevice::SafeDownCast(hand->GetDevice()) : nullptr;
+}
+
+pqOutputPort* pqHapticsManager::touchedPort() const
+{
+  vtkPVHapticScene* scene = this->clientScene();
+  const int touched = scene ? scene->GetTouchedRepresentation() : -1;
+  vtkSMPropertyHelper surfaces(this->Scene, "Surfaces", true);
+  if (touched < 0 || touched >= static_cast<int>(surfaces.GetNumberOfElements()))
+  {
+    return nullptr;
+  }
+  vtkSMPropertyHelper input(surfaces.GetAsProxy(touched), "Input", true);
+  auto* source =
+    pqApplicationCore::instance()->getServerManagerModel()->findItem<pqPipelineSource*>(
+      input.GetAsProxy());
+  return source ? source->getOutputPort(static_cast<int>(input.GetOutputPort())) : nullptr;
+}
+
+QString pqHapticsManager::whyNotTouch() const
+{
+  if (!qobject_cast<pqRenderView*>(pqActiveObjects::instance().activeView()))
+  {
+    return "The active view shows no surface that could be touched. Click into a render view, or "
+           "make one.";
+  }
+  const QList<pqOutputPort*> ports = selectedPorts();
+  if (ports.isEmpty())
+  {
+    return "No source is selected. Select one in the pipeline browser.";
+  }
+  for (pqOutputPort* port : ports)
+  {
+    pqPipelineSource* source = port->getSource();
+    if (source->modifiedState() == pqProxy::UNINITIALIZED)
+    {
+      return source->getSMName() + " has not been computed yet. Press Apply.";
+    }
+    vtkPVDataInformation* data = port->getDataInformation();
+    if (data->DataSetTypeIsA("vtkTable") || data->DataSetTypeIsA("vtkGraph"))
+    {
+      return source->getSMName() + " is no surface. Select a source of surfaces or volumes.";
+    }
+    if (source->getProxy()->GetXMLName() == std::string("HapticRecord"))
+    {
+      return source->getSMName() +
+        " is what a hand has left: it has no surface. Select another "
+        "source.";
+    }
+  }
+  return QString();
+}
+
+bool pqHapticsManager::isTouchingSelection() const
+{
+  const QList<pqOutputPort*> ports = selectedPorts();
+  return this->Engaged && this->View &&
+    std::all_of(ports.begin(), ports.end(),
+      [this](pqOutputPort* port)
+      {
+        pqDataRepresentation* shown = port->getRepresentation(this->View);
+        return shown && isHaptic(shown->getProxy());
+      });
 }
 
 void pqHapticsManager::findScene()
@@ -170,6 +283,10 @@ void pqHapticsManager::setDevice(const QString& device)
   if (vtkSMProxy* scene = this->makeScene())
   {
     this->setEngaged(false);
+    if (device == this->Recorder->file())
+    {
+      this->Recorder->setFile(QString()); // played, it is not to be written over
+    }
     SCOPED_UNDO_SET("Haptic Device");
     vtkSMPropertyHelper(scene, "Device").Set(device.toUtf8().data());
     scene->UpdateVTKObjects();
@@ -181,30 +298,14 @@ void pqHapticsManager::setDevice(const QString& device)
 void pqHapticsManager::touch()
 {
   const QString title = "Touch";
+  const QString reason = this->whyNotTouch();
+  if (!reason.isEmpty())
+  {
+    this->complain(title, reason);
+    return;
+  }
   pqView* view = pqActiveObjects::instance().activeView();
-  if (!qobject_cast<pqRenderView*>(view))
-  {
-    this->complain(title,
-      "The active view shows no surface that could be touched. Click into a render view, or make "
-      "one, and press Touch again.");
-    return;
-  }
-  QList<pqOutputPort*> ports;
-  for (pqServerManagerModelItem* item : pqActiveObjects::instance().selection())
-  {
-    auto* source = qobject_cast<pqPipelineSource*>(item);
-    auto* port = source ? source->getOutputPort(0) : qobject_cast<pqOutputPort*>(item);
-    if (port)
-    {
-      ports.append(port);
-    }
-  }
-  if (ports.isEmpty())
-  {
-    this->complain(
-      title, "No source is selected. Select one in the pipeline browser and press Touch again.");
-    return;
-  }
+  const QList<pqOutputPort*> ports = selectedPorts();
   SCOPED_UNDO_SET(title);
   for (pqOutputPort* port : ports)
   {
@@ -215,37 +316,34 @@ void pqHapticsManager::touch()
       return;
     }
   }
-  this->engage(title, true);
+  const bool isAdded = this->Engaged && view == this->View;
+  this->engage(title, !isAdded);
 }
 
 bool pqHapticsManager::show(pqOutputPort* port, pqView* view, QString& problem)
 {
   pqPipelineSource* source = port->getSource();
-  const QString name = source->getSMName();
-  if (source->modifiedState() == pqProxy::UNINITIALIZED)
-  {
-    problem = name + " has not been computed yet. Press Apply, then Touch.";
-    return false;
-  }
   vtkNew<vtkSMParaViewPipelineControllerWithRendering> controller;
   vtkSMProxy* representation =
     controller->Show(source->getSourceProxy(), port->getPortNumber(), view->getViewProxy());
-  vtkSMProperty* type = representation ? representation->GetProperty("Representation") : nullptr;
-  auto types = type ? type->FindDomain<vtkSMStringListDomain>() : nullptr;
-  unsigned int index = 0;
-  if (!types || !types->IsInDomain(HapticSurface, index))
+  if (!representation || !representation->GetProperty("Touchable"))
   {
-    problem = name +
+    problem = source->getSMName() +
       " has no surface that could be touched. Extract one, with Extract Surface or Contour for "
       "example, select that, and press Touch again.";
     return false;
   }
-  if (!isHaptic(representation))
+  SM_SCOPED_TRACE(PropertiesModified).arg("proxy", representation);
+  vtkSMPropertyHelper(representation, "Touchable").Set(1);
+  // An outline hides what is touched.
+  const std::string type = vtkSMPropertyHelper(representation, "Representation").GetAsString();
+  unsigned int index = 0;
+  auto types = representation->GetProperty("Representation")->FindDomain<vtkSMStringListDomain>();
+  if (type == "Outline" && types && types->IsInDomain("Surface", index))
   {
-    SM_SCOPED_TRACE(PropertiesModified).arg("proxy", representation);
-    vtkSMRepresentationProxy::SetRepresentationType(representation, HapticSurface);
-    representation->UpdateVTKObjects();
+    vtkSMRepresentationProxy::SetRepresentationType(representation, "Surface");
   }
+  representation->UpdateVTKObjects();
   return true;
 }
 
@@ -260,22 +358,56 @@ void pqHapticsManager::engage(const QString& title, bool anew)
   this->followActiveView();
   if (this->followSurfaces() == 0)
   {
-    this->complain(title,
-      "The active view shows nothing that can be touched. Select a source and press Touch, or "
-      "choose the representation Haptic Surface for it.");
+    this->complain(
+      title, "The active view shows nothing that can be touched. Select a source and press Touch.");
     return;
   }
   this->View->forceRender(); // surfaces come to the client with a render
   if (anew)
   {
-    set(scene, "Engaged", 0);
+    ::set(scene, "Engaged", 0);
   }
   if (!anew || this->clientScene()->Fit())
   {
-    set(scene, "Engaged", 1);
+    ::set(scene, "Engaged", 1);
+    this->focusView();
   }
   this->Asked = title;
   this->poll();
+}
+
+/// Keys go to where the hand is.
+void pqHapticsManager::focusView()
+{
+  auto* container = qobject_cast<pqQVTKWidget*>(this->View->widget());
+  if (QWidget* widget = container ? container->renderWidget() : nullptr)
+  {
+    widget->setFocus(Qt::OtherFocusReason);
+  }
+}
+
+/// At ParaView's level of detail while the hand moves; data that changed are drawn in full.
+void pqHapticsManager::draw()
+{
+  vtkSMViewProxy* view = this->View->getViewProxy();
+  if (!this->Engaged || view->GetNeedsUpdate())
+  {
+    this->View->render(); // asks for one: many of them become one
+    return;
+  }
+  // Where pictures take long, other events have as much time as they.
+  if (this->Drawn.isValid() && this->Drawn.elapsed() < this->DrawingTime)
+  {
+    return; // the scene asks again
+  }
+  this->Drawn.start();
+  view->InteractiveRender();
+  this->DrawingTime = this->Drawn.restart();
+  auto* drawn = vtkPVRenderView::SafeDownCast(view->GetClientSideObject());
+  if (drawn && drawn->GetUsedLODForLastRender())
+  {
+    this->Resting.start();
+  }
 }
 
 /// What was asked for fails at once where there is no device, and when all surfaces are built where
@@ -311,7 +443,7 @@ void pqHapticsManager::setEngaged(bool engaged)
   else if (this->Scene)
   {
     this->Asked.clear();
-    set(this->Scene, "Engaged", 0);
+    ::set(this->Scene, "Engaged", 0);
     this->poll();
   }
 }
@@ -365,6 +497,17 @@ int pqHapticsManager::followSurfaces()
   return static_cast<int>(count);
 }
 
+void pqHapticsManager::set(const char* what, const char* property, double value)
+{
+  if (vtkSMProxy* scene = this->makeScene())
+  {
+    SCOPED_UNDO_SET(what);
+    vtkSMPropertyHelper(scene, property).Set(value);
+    scene->UpdateVTKObjects();
+    this->poll();
+  }
+}
+
 void pqHapticsManager::fit()
 {
   this->command("Fit");
@@ -393,7 +536,7 @@ void pqHapticsManager::poll()
     this->followSurfaces();
     if (scene->Update() && this->View)
     {
-      this->View->render(); // asks for one: many of them become one
+      this->draw();
     }
   }
   this->noticeState();
@@ -421,7 +564,7 @@ void pqHapticsManager::noticeState()
     this->Timer.stop();
     if (this->Scene && vtkSMPropertyHelper(this->Scene, "Engaged").GetAsInt() != 0)
     {
-      set(this->Scene, "Engaged", 0);
+      ::set(this->Scene, "Engaged", 0);
     }
   }
   else if (!this->Timer.isActive())

@@ -6,13 +6,14 @@
  * It is made when it is first needed; one that a state file or a script has registered is taken.
  * This class edits that proxy and never touches VTK objects but to read what the hand feels.
  *
- * The scene follows ParaView: its surfaces are the representations of type "Haptic Surface" of its
- * view, and its view is the active one, where that shows such a surface. The proxy itself sees to
+ * The scene follows ParaView: its surfaces are the touchable representations of its view, and its
+ * view is the active one, where that shows such a surface. The proxy itself sees to
  * it that the hand is released when the view is closed or the server goes away.
  *
  * While the hand is engaged, a device is being opened or a surface is being built, one timer looks
- * at the scene at most 60 times a second and renders where a picture would differ. At other times
- * nothing runs. Nothing here waits or runs an event loop. GUI thread.
+ * at the scene at most 60 times a second and renders where a picture would differ: at ParaView's
+ * level of detail while the hand moves, in full when it rests. At other times nothing runs. Nothing
+ * here waits or runs an event loop. GUI thread.
  *
  * Errors: what a user asked for and cannot have is told in a message box; what goes wrong later is
  * in ParaView's output window and in the panel.
@@ -22,14 +23,17 @@
 
 #include "vtkWeakPointer.h"
 
+#include <QElapsedTimer>
 #include <QObject>
 #include <QPointer>
 #include <QString>
 #include <QTimer>
 
+class pqHapticsRecorder;
 class pqOutputPort;
 class pqView;
 class vtkHapticScene;
+class vtkMouseHapticDevice;
 class vtkPVHapticScene;
 class vtkSMProxy;
 
@@ -53,6 +57,18 @@ public:
   vtkHapticScene* hand() const;
   ///@}
 
+  /** The device, where it is a mouse that moves the hand; else null. */
+  vtkMouseHapticDevice* mouse() const;
+  /** Never null. */
+  pqHapticsRecorder* recorder() const { return this->Recorder; }
+  /** What is touched just now; null in free space. */
+  pqOutputPort* touchedPort() const;
+
+  /** Why what is selected cannot be touched in the active view; empty where it can. */
+  QString whyNotTouch() const;
+  /** Whether all that is selected is touched. */
+  bool isTouchingSelection() const;
+
   /** Whether the hand is engaged, as of the last look at the scene. */
   bool isEngaged() const { return this->Engaged; }
 
@@ -64,17 +80,19 @@ public:
 
 public Q_SLOTS:
   /**
-   * Shows the selected sources as Haptic Surface in the active view, fits the workspace to them and
-   * engages the device. Undo takes the change of representation back. Where that is not possible
-   * nothing changes, and a message box tells why.
+   * Makes the selected sources touchable in the active view, fits the workspace to them and engages
+   * the device; adds them where it is engaged. Undo makes them untouchable again. Where that is not
+   * possible nothing changes, and a message box tells why.
    */
   void touch();
-  /** Engages the hand on what is already a Haptic Surface in the active view, or releases it. */
+  /** Engages the hand on what is touchable in the active view, or releases it. */
   void setEngaged(bool engaged);
   /** Takes another device, by the name that the proxy has for it; releases the hand first. */
   void setDevice(const QString& device);
   /** Maps the device's workspace to the surfaces as the camera sees them. */
   void fit();
+  /** Sets a property of the scene, which is made where there is none; undo knows it as `what`. */
+  void set(const char* what, const char* property, double value);
   /** Runs a command of the scene, then shows what came of it. */
   void command(const char* property);
   /** Looks at the scene now. */
@@ -88,6 +106,8 @@ Q_SIGNALS:
   void engagedChanged(bool engaged);
   /** What the scene tells may have changed. */
   void updated();
+  /** What is selected, or whether it can be touched, may have changed. */
+  void choiceChanged();
 
 private:
   Q_DISABLE_COPY(pqHapticsManager)
@@ -102,10 +122,16 @@ private:
   void noticeState();
   void proveAsked();
   bool show(pqOutputPort* port, pqView* view, QString& problem);
+  void focusView();
+  void draw();
 
   vtkWeakPointer<vtkSMProxy> Scene;
   QPointer<pqView> View;
+  pqHapticsRecorder* Recorder;
   QTimer Timer{ this };
+  QTimer Resting{ this }; // until the picture is drawn in full
+  QElapsedTimer Drawn;    // since the last picture
+  qint64 DrawingTime = 0; // that it took [ms]
   bool Engaged = false;
   QString Asked; // title of what the user asked for last, until it is seen to hold
 };

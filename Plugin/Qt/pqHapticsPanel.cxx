@@ -1,11 +1,11 @@
 #include "pqHapticsPanel.h"
 #include "ui_pqHapticsPanel.h"
 
-#include "LandmarksSource.h"
+#include "RecordSource.h"
 #include "pqCoreUtilities.h"
 #include "pqFileDialog.h"
 #include "pqHapticsManager.h"
-#include "pqUndoStack.h"
+#include "pqHapticsRecorder.h"
 #include "vtkCommand.h"
 #include "vtkHapticLandmarks.h"
 #include "vtkHapticScene.h"
@@ -29,7 +29,6 @@ namespace
 constexpr int TextInterval = 100;      // [ms]; nobody reads faster
 constexpr double WorkspaceStep = 1.25; // of Finer and Coarser
 constexpr const char* ChooseFile = ""; // the device chooser's entry that asks for a file
-constexpr const char* RecordingFilter = "Haptic recordings (*.hrec)";
 constexpr const char* PlayedFilter = "Haptic recordings (*.hrec);;Paths (*.vtp);;All files (*)";
 
 QString number(double value, int digits)
@@ -80,12 +79,13 @@ void pqHapticsPanel::connectSettings()
   this->connect(
     form.device, QOverload<int>::of(&QComboBox::activated), this, &pqHapticsPanel::chooseDevice);
   this->connect(form.stiffness, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
-    [this](double value) { this->set("Haptic Stiffness", "Stiffness", value); });
+    [this](double value) { this->Manager->set("Haptic Stiffness", "Stiffness", value); });
   this->connect(form.maximumForce, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
-    [this](double value) { this->set("Largest Haptic Force", "MaximumForce", value); });
+    [this](double value) { this->Manager->set("Largest Haptic Force", "MaximumForce", value); });
   this->connect(form.clutch, &QAbstractButton::clicked, this,
-    [this](bool on) { this->set("Haptic Clutch", "Clutched", on); });
-  this->connect(form.record, &QAbstractButton::clicked, this, &pqHapticsPanel::record);
+    [this](bool on) { this->Manager->set("Haptic Clutch", "Clutched", on); });
+  this->connect(
+    form.record, &QAbstractButton::clicked, this->Manager->recorder(), &pqHapticsRecorder::arm);
 }
 
 void pqHapticsPanel::connectCommands()
@@ -124,17 +124,6 @@ void pqHapticsPanel::followScene()
   }
   this->showSettings();
   this->showReadings();
-}
-
-void pqHapticsPanel::set(const char* what, const char* property, double value)
-{
-  if (vtkSMProxy* scene = this->Manager->makeScene())
-  {
-    SCOPED_UNDO_SET(what);
-    vtkSMPropertyHelper(scene, property).Set(value);
-    scene->UpdateVTKObjects();
-    this->Manager->poll();
-  }
 }
 
 void pqHapticsPanel::scale(double factor)
@@ -178,41 +167,6 @@ void pqHapticsPanel::chooseRecording()
   dialog->open();
 }
 
-void pqHapticsPanel::record(bool on)
-{
-  vtkSMProxy* scene = this->Manager->makeScene();
-  if (!scene)
-  {
-    this->showSettings();
-    return;
-  }
-  if (!on)
-  {
-    this->setRecording(QString());
-    return;
-  }
-  auto* dialog = new pqFileDialog(nullptr, pqCoreUtilities::mainWidget(),
-    "Record What the Hand Does", QString(), RecordingFilter, false);
-  dialog->setObjectName("HapticRecorderDialog");
-  dialog->setFileMode(pqFileDialog::AnyFile);
-  dialog->setAttribute(Qt::WA_DeleteOnClose);
-  this->connect(dialog, &QDialog::accepted, this,
-    [this, dialog] { this->setRecording(dialog->getSelectedFiles().value(0)); });
-  this->connect(dialog, &QDialog::rejected, this, &pqHapticsPanel::showSettings);
-  dialog->open();
-}
-
-void pqHapticsPanel::setRecording(const QString& file)
-{
-  if (vtkSMProxy* scene = this->Manager->scene())
-  {
-    SCOPED_UNDO_SET("Haptic Recorder");
-    vtkSMPropertyHelper(scene, "RecordingFileName").Set(file.toUtf8().data());
-    scene->UpdateVTKObjects();
-  }
-  this->showSettings();
-}
-
 void pqHapticsPanel::showSettings()
 {
   Ui::pqHapticsPanel& form = *this->Form;
@@ -225,7 +179,6 @@ void pqHapticsPanel::showSettings()
   {
     needsScene->setEnabled(scene != nullptr);
   }
-  QString file;
   if (scene)
   {
     const QSignalBlocker stiffness(form.stiffness);
@@ -233,11 +186,16 @@ void pqHapticsPanel::showSettings()
     form.stiffness->setValue(vtkSMPropertyHelper(scene, "Stiffness").GetAsDouble());
     form.maximumForce->setValue(vtkSMPropertyHelper(scene, "MaximumForce").GetAsDouble());
     form.clutch->setChecked(vtkSMPropertyHelper(scene, "Clutched").GetAsInt() != 0);
-    file = vtkSMPropertyHelper(scene, "RecordingFileName").GetAsString();
   }
-  form.record->setChecked(!file.isEmpty());
-  form.recording->setText(file.isEmpty() ? "no file" : QFileInfo(file).fileName());
-  form.recording->setToolTip(file);
+  this->showRecorder();
+}
+
+void pqHapticsPanel::showRecorder()
+{
+  const pqHapticsRecorder* recorder = this->Manager->recorder();
+  this->Form->record->setChecked(recorder->isArmed());
+  this->Form->recording->setText(recorder->state());
+  this->Form->recording->setToolTip(recorder->file());
 }
 
 void pqHapticsPanel::showDevice()
@@ -263,6 +221,7 @@ void pqHapticsPanel::showReadings()
     this->LastText.start();
     this->showText();
     this->showContact();
+    this->showRecorder();
   }
 }
 

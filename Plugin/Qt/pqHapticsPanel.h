@@ -41,17 +41,15 @@ private:
 
   void connectSettings();
   void connectCommands();
-  void set(const char* what, const char* property, double value);
   void chooseDevice(int index);
   void chooseRecording();
-  void record(bool on);
-  void setRecording(const QString& file);
   void scale(double factor);
   void showDevice();
   void showForce();
   void showBuilding();
   void showText();
   void showContact();
+  void showRecorder();
   void exportLandmarks();
 
   std::unique_ptr<Ui::pqHapticsPanel> Form;

@@ -1,12 +1,12 @@
 /**
  * @class   pqHapticsToolBar
- * @brief   One button, Touch: feel the selected source.
+ * @brief   One button, Touch: feel the selected sources.
  *
- * Pressed, it shows the selected source as a Haptic Surface in the active view and engages the
- * device that was used last, the mouse where there is none. It stays pressed in while the hand is
- * engaged; pressed again it releases the hand. GUI thread.
+ * Pressed, it makes the selected sources touchable in the active view, however they are drawn, and
+ * engages the device that was used last, the mouse where there is none. It stays pressed in while
+ * the selected sources are touched; pressed again it releases the hand. GUI thread.
  *
- * @sa pqHapticsManager pqHapticsPanel
+ * @sa pqHapticsActions pqHapticsManager pqHapticsPanel
  */
 #ifndef Haptics_pqHapticsToolBar_h
 #define Haptics_pqHapticsToolBar_h

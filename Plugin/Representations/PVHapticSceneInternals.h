@@ -27,8 +27,9 @@ public:
   struct Surface
   {
     vtkWeakPointer<vtkObject> Representation;
-    vtkSmartPointer<vtkActor> Actor; // null while it cannot be touched
-    int Id = -1;                     // in the scene
+    vtkWeakPointer<vtkHapticSurfaceRepresentation> Beside; // that is touched while another is drawn
+    vtkSmartPointer<vtkActor> Actor;                       // null while it cannot be touched
+    int Id = -1;                                           // in the scene
     std::string Name;
   };
 
@@ -48,19 +49,29 @@ public:
   int Side = vtkGodObjectFilter::AUTOMATIC_SIDE;
   double MaximumForce = 3.3;
   std::string Message;
+  bool MessageIsOfSurface = false; // it goes when no surface is bad any more
+  std::string ReleasedBecause;     // by what the user did with sources and views
+  bool MustRender = false;         // the picture is older than what is known
+  bool HasTouched = false;         // the hint is not needed any more
+  std::string TouchedName;
   std::string State;
   std::string ShownState;
   vtkNew<vtkStringArray> Probed;
 
   Internals() { this->Picture->SetScene(this->Scene); }
 
-  static vtkHapticSurfaceRepresentation* Active(vtkObject* representation)
+  /// What brings the triangles of a surface; null where it cannot be touched just now.
+  static vtkHapticSurfaceRepresentation* Touched(const Surface& surface)
   {
-    if (auto* composite = vtkCompositeRepresentation::SafeDownCast(representation))
+    vtkObject* drawn = surface.Representation;
+    if (auto* composite = vtkCompositeRepresentation::SafeDownCast(drawn))
     {
-      representation = composite->GetActiveRepresentation();
+      drawn = composite->GetActiveRepresentation();
     }
-    return vtkHapticSurfaceRepresentation::SafeDownCast(representation);
+    auto* haptic = vtkHapticSurfaceRepresentation::SafeDownCast(drawn);
+    return haptic                                        ? haptic
+      : surface.Beside && surface.Beside->GetTouchable() ? +surface.Beside
+                                                         : nullptr;
   }
 
   void Show(vtkRenderer* renderer)
@@ -83,6 +94,7 @@ public:
   /// Where the picture is drawn on a server only the non-composited renderer draws here.
   void OnRender()
   {
+    this->MustRender = false;
     if (this->View)
     {
       const bool remote = this->View->GetUsedLODForLastRender()

@@ -2,6 +2,7 @@
 
 #include "vtkActor.h"
 #include "vtkAppendPolyData.h"
+#include "vtkCellArray.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataAssembly.h"
@@ -72,9 +73,15 @@ vtkSmartPointer<vtkPolyData> Gather(vtkDataObject* data, const std::vector<std::
 /// The triangles of the cells that are this process' own.
 vtkSmartPointer<vtkPolyData> Triangulate(vtkPolyData* surface)
 {
-  vtkNew<vtkPolyData> own;
+  auto own = vtkSmartPointer<vtkPolyData>::New();
   own->ShallowCopy(surface);
   own->RemoveGhostCells();
+  const bool areTriangles =
+    own->GetPolys()->IsHomogeneous() == 3 && own->GetNumberOfCells() == own->GetNumberOfPolys();
+  if (areTriangles)
+  {
+    return own;
+  }
   vtkNew<vtkTriangleFilter> triangulate;
   triangulate->PassVertsOff();
   triangulate->PassLinesOff();
@@ -90,6 +97,25 @@ vtkHapticSurfaceRepresentation::vtkHapticSurfaceRepresentation()
 }
 
 vtkHapticSurfaceRepresentation::~vtkHapticSurfaceRepresentation() = default;
+
+void vtkHapticSurfaceRepresentation::SetTouchable(bool touchable)
+{
+  if (touchable != this->Touchable)
+  {
+    this->Touchable = touchable;
+    this->MarkModified();
+  }
+}
+
+void vtkHapticSurfaceRepresentation::SetShown(bool shown)
+{
+  this->Shown = shown;
+}
+
+bool vtkHapticSurfaceRepresentation::GetVisibility()
+{
+  return this->Superclass::GetVisibility() || (this->Touchable && this->Shown);
+}
 
 int vtkHapticSurfaceRepresentation::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
@@ -113,10 +139,14 @@ int vtkHapticSurfaceRepresentation::ProcessViewRequest(
   {
     this->MarkModified(); // for drawing no new data are needed, for touching they are
   }
-  if (!this->Superclass::ProcessViewRequest(request, inInfo, outInfo))
+  // Where another representation is drawn, this one gives the view nothing to draw.
+  const bool isDrawn = this->Superclass::GetVisibility();
+  const int isDone = isDrawn
+    ? this->Superclass::ProcessViewRequest(request, inInfo, outInfo)
+    : this->vtkPVDataRepresentation::ProcessViewRequest(request, inInfo, outInfo);
+  if (!isDone)
   {
-    this->Receive(nullptr); // hidden
-    return 0;
+    return 0; // hidden
   }
   if (request == vtkPVView::REQUEST_UPDATE())
   {

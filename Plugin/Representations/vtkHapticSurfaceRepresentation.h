@@ -1,18 +1,21 @@
 /**
  * @class   vtkHapticSurfaceRepresentation
- * @brief   ParaView's Surface, which also brings its triangles to the client to be touched
+ * @brief   Brings the triangles of a surface to the client to be touched, however it is drawn
  *
- * What is drawn is what Surface draws. Besides, each process makes triangles of its piece of the
- * surface (without ghost cells, lines and vertices) and gives them to the view on a port of their
- * own, HapticPort. The view brings all pieces to the client with each render, wherever it draws.
- * GetTouchedActor() has them there.
+ * One of the representations that a source has in a view. Where it is touchable, each process makes
+ * triangles of its piece of the surface (without ghost cells, lines and vertices) and gives them to
+ * the view on a port of their own, HapticPort. The view brings all pieces to the client with each
+ * render, wherever it draws. GetTouchedActor() has them there.
+ *
+ * Another representation of the source may be drawn meanwhile, Surface With Edges or Volume for
+ * example: SetTouchable(). Where this one is chosen itself, as Haptic Surface, it draws what
+ * Surface draws and is always touchable.
  *
  * Any data whose outside is a surface will do, as for Surface. The blocks of composite data that
  * are shown become one surface; point and cell arrays that all blocks have come along, to be
  * probed.
  *
- * While another representation is chosen for the source, or the source is hidden, it cannot be
- * touched.
+ * While the source is hidden it cannot be touched.
  *
  * GUI thread.
  *
@@ -44,6 +47,19 @@ public:
   static vtkHapticSurfaceRepresentation* New();
   vtkTypeMacro(vtkHapticSurfaceRepresentation, vtkGeometryRepresentationWithFaces);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /** Whether the surface can be touched while another representation is drawn. Default off. */
+  void SetTouchable(bool touchable);
+  vtkGetMacro(Touchable, bool);
+  ///@}
+  /**
+   * Whether the source is shown, by whichever of its representations. Default on; ParaView's own
+   * property Visibility sets it.
+   */
+  void SetShown(bool shown);
+  /** Whether the view asks this representation for data: it is drawn, or touched beside. */
+  bool GetVisibility() override;
 
   /** The port of the view that the triangles go through. */
   static constexpr int HapticPort = 1;
@@ -85,6 +101,8 @@ private:
 
   void Receive(vtkDataObject* delivered);
 
+  bool Touchable = false;
+  bool Shown = true;
   std::vector<std::string> ShownBlocks;        // the selectors that LocalTriangles were made by
   vtkSmartPointer<vtkPolyData> LocalTriangles; // another object after each change
   vtkSmartPointer<vtkDataObject> Delivered;

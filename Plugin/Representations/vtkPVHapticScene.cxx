@@ -20,6 +20,10 @@ vtkStandardNewMacro(vtkPVHapticScene);
 
 namespace
 {
+constexpr const char* MouseHint = "Move the mouse over the surface.\n"
+                                  "Hold the space bar to press; move to stroke.\n"
+                                  "The wheel sets how deep; with Ctrl it zooms. Drag to turn.";
+
 /// How far apart two processes may place the same point [world unit]: some units of the last place
 /// of the precision that points are stored in. The last such width where that will still do: with
 /// another one a surface whose points move would be built anew instead of deformed.
@@ -61,6 +65,7 @@ vtkPVHapticScene::~vtkPVHapticScene()
 void vtkPVHapticScene::Fail(const std::string& message)
 {
   this->Internal->Message = message;
+  this->Internal->MessageIsOfSurface = false;
   vtkErrorMacro(<< message);
 }
 
@@ -74,6 +79,7 @@ void vtkPVHapticScene::FailWithoutSurface(const std::string& message)
     return;
   }
   this->Internal->Message = cause;
+  this->Internal->MessageIsOfSurface = true;
 }
 
 vtkHapticScene* vtkPVHapticScene::GetScene()
@@ -112,7 +118,7 @@ void vtkPVHapticScene::SetView(vtkObject* object)
   }
   else
   {
-    this->ReleaseBecause("The view was closed");
+    this->ReleaseBecause("there is no view to touch in");
   }
   if (self.View)
   {
@@ -136,6 +142,7 @@ void vtkPVHapticScene::SetView(vtkObject* object)
     self.OverlayRenderer = view->GetNonCompositedRenderer();
     self.OverlayRenderer->AddViewProp(self.Picture->GetOverlay());
     self.Show(view->GetRenderer());
+    this->ShowHand();
     self.ViewObservers = { view->GetRenderWindow()->AddObserver(
                              vtkCommand::StartEvent, &self, &Internals::OnRender),
       view->AddObserver(vtkCommand::DeleteEvent, this, &vtkPVHapticScene::OnViewDeleted) };
@@ -148,7 +155,7 @@ void vtkPVHapticScene::OnViewDeleted()
   // Its window and renderers go with it, and our props in them.
   this->Internal->View = nullptr;
   this->Internal->ViewObservers.clear();
-  this->ReleaseBecause("The view was closed");
+  this->ReleaseBecause("the view was closed");
 }
 
 //--- surfaces -------------------------------------------------------------------------------------
@@ -168,13 +175,15 @@ void vtkPVHapticScene::AddSurface(vtkObject* representation)
   this->Modified();
 }
 
-void vtkPVHapticScene::SetSurfaceName(vtkObject* representation, const std::string& name)
+void vtkPVHapticScene::SetSurfaceSource(
+  vtkObject* representation, const std::string& name, vtkHapticSurfaceRepresentation* beside)
 {
   for (Internals::Surface& surface : this->Internal->Surfaces)
   {
     if (surface.Representation == representation)
     {
       surface.Name = name;
+      surface.Beside = beside;
       this->Internal->Scene->SetSurfaceName(surface.Id, name.c_str());
     }
   }
@@ -195,7 +204,7 @@ void vtkPVHapticScene::SyncSurfaces()
   std::set<vtkActor*> wanted;
   for (Internals::Surface& surface : self.Surfaces)
   {
-    vtkHapticSurfaceRepresentation* representation = Internals::Active(surface.Representation);
+    vtkHapticSurfaceRepresentation* representation = Internals::Touched(surface);
     surface.Actor = representation ? representation->GetTouchedActor() : nullptr;
     surface.Id = -1;
     if (surface.Actor)
@@ -231,9 +240,25 @@ int vtkPVHapticScene::GetNumberOfTouchableSurfaces()
   return touchable;
 }
 
+/// Whether one that is shown cannot be touched, or not as it is shown. One that is being built may
+/// be.
+bool vtkPVHapticScene::HasBadSurface()
+{
+  vtkHapticScene* scene = this->Internal->Scene;
+  const std::vector<Internals::Surface>& surfaces = this->Internal->Surfaces;
+  return scene->IsBuilding() ||
+    std::any_of(surfaces.begin(), surfaces.end(),
+      [scene](const Internals::Surface& surface)
+      {
+        return surface.Actor && surface.Actor->GetVisibility() &&
+          (!scene->IsSurfaceTouchable(surface.Id) || scene->IsSurfaceOutdated(surface.Id));
+      });
+}
+
 void vtkPVHapticScene::OnSurfaceError()
 {
   this->Internal->Message = this->Internal->Scene->GetErrorMessage(); // it has reported it itself
+  this->Internal->MessageIsOfSurface = true;
 }
 
 void vtkPVHapticScene::SetInPieces(bool inPieces)
@@ -305,7 +330,7 @@ bool vtkPVHapticScene::Prepare()
   }
   if (self.Surfaces.empty())
   {
-    this->Fail("There is nothing to touch. Select a source, show it as Haptic Surface.");
+    this->Fail("There is nothing to touch. Select a source and press Touch.");
     return false;
   }
   return this->ChooseDevice() && (self.Fitted || this->Fit()) && this->ChoosePath();
@@ -337,6 +362,7 @@ void vtkPVHapticScene::SetEngaged(bool engaged)
   {
     self.Wanted = false;
     self.Scene->Release();
+    this->ShowHand();
     return;
   }
   if (self.Scene->IsEngaged())
@@ -344,6 +370,7 @@ void vtkPVHapticScene::SetEngaged(bool engaged)
     return;
   }
   self.Message.clear();
+  self.ReleasedBecause.clear();
   this->SyncSurfaces();
   if (!this->ChooseDevice())
   {
@@ -384,7 +411,7 @@ void vtkPVHapticScene::ReleaseBecause(const std::string& reason)
   if (this->Internal->Wanted || this->Internal->Scene->IsEngaged())
   {
     this->SetEngaged(false);
-    this->Fail(reason + "; the device is released.");
+    this->Internal->ReleasedBecause = reason;
   }
 }
 
@@ -429,10 +456,15 @@ bool vtkPVHapticScene::Update()
   this->SyncSurfaces();
   if (self.Surfaces.empty())
   {
-    this->ReleaseBecause("What was touched is no longer there");
+    this->ReleaseBecause("nothing is left to touch");
   }
   const bool wasEngaged = self.Scene->IsEngaged();
   bool changed = self.Scene->Update();
+  if (self.MessageIsOfSurface && !this->HasBadSurface())
+  {
+    self.MessageIsOfSurface = false;
+    self.Message.clear(); // the fault is mended, or its surface gone
+  }
   if (wasEngaged && !self.Scene->IsEngaged())
   {
     self.Wanted = false;
@@ -450,7 +482,36 @@ bool vtkPVHapticScene::Update()
     self.ShownState = self.State;
     changed = true;
   }
-  return changed;
+  this->ShowHand();
+  self.MustRender = self.MustRender || changed;
+  return self.MustRender;
+}
+
+/// Hand, force and what they do are in the picture as long as a hand is there.
+void vtkPVHapticScene::ShowHand()
+{
+  Internals& self = *this->Internal;
+  if (!self.View)
+  {
+    return;
+  }
+  const int state = self.Scene->GetServo()->GetState();
+  const bool isThere = state == vtkHapticServo::Running || state == vtkHapticServo::Stepping;
+  vtkHapticOverlay* overlay = self.Picture->GetOverlay();
+  self.HasTouched = self.HasTouched || self.Scene->GetTouching();
+  vtkHapticDevice* device = self.Scene->GetDevice();
+  overlay->SetHint(device && device->UsesView() && !self.HasTouched ? MouseHint : "");
+  const std::string what = self.Scene->IsEngaged() || self.Wanted ? this->GetState() : "";
+  const std::string engaged = "Engaged, ";
+  overlay->SetStatus(what.rfind(engaged, 0) == 0 ? what.substr(engaged.size()) : what);
+  const bool isShown = isThere || self.Wanted;
+  if (isShown != (overlay->GetVisibility() != 0))
+  {
+    self.Picture->GetGodObjectActor()->SetVisibility(isThere);
+    overlay->SetVisibility(isShown);
+    self.MustRender = true;
+  }
+  self.Picture->GetGodObjectActor()->SetVisibility(isThere);
 }
 
 void vtkPVHapticScene::EngageWhenReady()
@@ -474,6 +535,7 @@ void vtkPVHapticScene::Step(int ticks)
 {
   vtkHapticScene* scene = this->Internal->Scene;
   this->Internal->Message.clear();
+  this->Internal->ReleasedBecause.clear();
   this->SyncSurfaces();
   scene->BackgroundBuildingOff(); // virtual time waits for what is to be touched
   scene->Update();
@@ -482,4 +544,5 @@ void vtkPVHapticScene::Step(int ticks)
     this->Internal->Message = scene->GetErrorMessage();
   }
   scene->BackgroundBuildingOn();
+  this->ShowHand();
 }

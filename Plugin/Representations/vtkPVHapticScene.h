@@ -30,6 +30,7 @@
 #include <string>
 
 class vtkHapticScene;
+class vtkHapticSurfaceRepresentation;
 class vtkHapticView;
 class vtkPVRenderView;
 class vtkStringArray;
@@ -59,14 +60,18 @@ public:
   ///@{
   /**
    * The representations to touch, as a view has them: each a vtkHapticSurfaceRepresentation or one
-   * that has it among its choices. One that is hidden or shows itself in another way is not
-   * touched until it does.
+   * that has it among its choices. It is touched while that is chosen; with SetSurfaceSource() also
+   * while it is touchable beside another choice. One that is hidden is not touched.
    */
   void AddSurface(vtkObject* representation);
   void RemoveAllSurfaces();
   ///@}
-  /** What messages and the read-out call a representation's surface; no name by default. */
-  void SetSurfaceName(vtkObject* representation, const std::string& name);
+  /**
+   * What messages and the read-out call a representation's surface (no name by default), and which
+   * of its choices brings the triangles (null: the one that is drawn).
+   */
+  void SetSurfaceSource(
+    vtkObject* representation, const std::string& name, vtkHapticSurfaceRepresentation* beside);
   /**
    * Whether the surfaces come from several processes, which may place the same point some units of
    * the last place apart: such points are merged, so that no seam is felt. Default off.
@@ -95,7 +100,10 @@ public:
   void SetEngaged(bool engaged);
   bool GetEngaged();
   ///@}
-  /** Releases an engaged scene for a reason that people are told. */
+  /**
+   * Releases an engaged scene; GetState() has the reason, in a few words. No error: what a user
+   * does with sources and views is not one.
+   */
   void ReleaseBecause(const std::string& reason);
 
   ///@{
@@ -181,7 +189,7 @@ public:
   ///@}
 
   ///@{
-  /** What goes on, in words, and the last error; empty where nothing went wrong since Engage. */
+  /** What goes on, in words, and what is wrong; empty where nothing is, or no longer. */
   const char* GetState();
   const char* GetMessage();
   ///@}
@@ -199,6 +207,8 @@ public:
   ///@}
   /** Which of the representations is touched, by the order they were added in; else -1. */
   int GetTouchedRepresentation();
+  /** What it is called; empty where nothing is touched, or without a name. */
+  const char* GetTouchedName();
   /** For each array its name and its value at the contact, as text. */
   vtkStringArray* GetProbedValues();
 
@@ -218,6 +228,8 @@ private:
   bool HasToWait();
   void EngageWhenReady();
   void SyncSurfaces();
+  bool HasBadSurface();
+  void ShowHand();
   void OnViewDeleted();
   void OnSurfaceError();
 

@@ -81,8 +81,9 @@ bool vtkPVHapticScene::Fit()
   }
   if (!box.IsValid())
   {
-    this->Fail("The device's workspace fits nothing: no surface is shown as Haptic Surface, or it "
-               "has no faces. Show a source with a surface, and render.");
+    this->Fail(
+      "The device's workspace fits nothing: what is to be touched is hidden, or has no surface: no "
+      "faces. Touch a source with a surface, and render.");
     return false;
   }
   double bounds[6];

@@ -16,20 +16,31 @@ const char* vtkPVHapticScene::GetState()
 {
   Internals& self = *this->Internal;
   vtkHapticScene* scene = self.Scene;
-  if (scene->IsEngaged())
+  const char* waits = scene->GetDevice() ? scene->GetDevice()->GetStatusMessage() : "";
+  if ((scene->IsEngaged() || self.Wanted) && scene->IsBuilding() && !scene->GetTouching())
+  {
+    self.State = "Preparing the surfaces, " +
+      std::to_string(static_cast<int>(100.0 * scene->GetBuildProgress())) + " %";
+  }
+  else if (scene->IsEngaged())
   {
     self.State = scene->GetClutched() ? "Engaged, clutched: nothing is touched"
-      : scene->GetTouching()          ? "Engaged, touching"
+      : scene->GetTouching()          ? "Engaged, touching " + std::string(this->GetTouchedName())
+      : *waits                        ? std::string("Engaged, ") + waits
                                       : "Engaged, in free space";
   }
   else if (self.Wanted)
   {
-    self.State =
-      scene->IsBuilding() ? "Preparing the surfaces" : scene->GetDevice()->GetStatusMessage();
+    self.State = waits;
   }
   else
   {
-    self.State = self.Message.empty() ? "Released" : "Released: " + self.Message;
+    const std::string& why = self.Message.empty() ? self.ReleasedBecause : self.Message;
+    self.State = why.empty() ? "Released" : "Released: " + why;
+  }
+  if (!self.State.empty() && self.State.back() == ' ')
+  {
+    self.State.pop_back(); // without a name
   }
   return self.State.c_str();
 }
@@ -101,6 +112,13 @@ int vtkPVHapticScene::GetTouchedRepresentation()
   const auto found = std::find_if(surfaces.begin(), surfaces.end(),
     [id](const Internals::Surface& surface) { return id >= 0 && surface.Id == id; });
   return found == surfaces.end() ? -1 : static_cast<int>(found - surfaces.begin());
+}
+
+const char* vtkPVHapticScene::GetTouchedName()
+{
+  const int touched = this->GetTouching() ? this->GetTouchedRepresentation() : -1;
+  this->Internal->TouchedName = touched < 0 ? "" : this->Internal->Surfaces.at(touched).Name;
+  return this->Internal->TouchedName.c_str();
 }
 
 vtkIdType vtkPVHapticScene::GetTouchedCell()

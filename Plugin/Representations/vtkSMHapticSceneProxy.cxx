@@ -1,6 +1,7 @@
 #include "vtkSMHapticSceneProxy.h"
 
 #include "vtkCommand.h"
+#include "vtkHapticSurfaceRepresentation.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVHapticScene.h"
 #include "vtkPVSession.h"
@@ -78,7 +79,7 @@ void vtkSMHapticSceneProxy::OnConnectionLost()
 {
   if (vtkPVHapticScene* scene = this->GetScene())
   {
-    scene->ReleaseBecause("The connection to the server is lost");
+    scene->ReleaseBecause("the connection to the server is lost");
   }
 }
 
@@ -180,9 +181,15 @@ void vtkSMHapticSceneProxy::NameSurfaces(vtkSMProxy* source, const char* name)
     const char* const its = !shown ? nullptr
       : shown == source            ? name
                                    : this->GetSessionProxyManager()->GetProxyName("sources", shown);
+    // One of its choices has the property.
+    vtkSMProperty* const touchable =
+      representation ? representation->GetProperty("Touchable") : nullptr;
+    vtkSMProxy* const haptic = touchable ? touchable->GetParent() : nullptr;
     if (its)
     {
-      scene->SetSurfaceName(vtkObject::SafeDownCast(representation->GetClientSideObject()), its);
+      scene->SetSurfaceSource(vtkObject::SafeDownCast(representation->GetClientSideObject()), its,
+        haptic ? vtkHapticSurfaceRepresentation::SafeDownCast(haptic->GetClientSideObject())
+               : nullptr);
     }
   }
 }

@@ -43,7 +43,7 @@ class SceneTest(unittest.TestCase):
         return source
 
     def touch(self, source):
-        """Shows a source as Haptic Surface, seen from a corner; returns its display."""
+        """Makes a source touchable, seen from a corner; returns its display."""
         display = self.hand.touch(source, self.view)
         look_at(self.view)
         return display

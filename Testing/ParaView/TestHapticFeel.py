@@ -1,4 +1,4 @@
-"""How a Haptic Surface feels, as its display is told: arrays, ranges, curves, constants."""
+"""How a surface feels, as its display is told: arrays, ranges, curves, constants."""
 
 import os
 

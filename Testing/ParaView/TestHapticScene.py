@@ -37,13 +37,13 @@ class TestHapticScene(SceneTest):
         simple.RenameSource("Tibia", self.made[0])
         self.assertEqual(scene.GetSurfaceName(surface), "Tibia")
 
-    def test_what_is_hidden_or_shown_otherwise_is_not_touched(self):
+    def test_what_is_hidden_or_not_touchable_is_not_touched(self):
         display = self.touch(self.make("Sphere"))
         self.hand.step(1500)
         self.assertEqual(self.hand.Touching, 1)
         for name, no, yes in (
             ("Visibility", 0, 1),
-            ("Representation", "Wireframe", "Haptic Surface"),
+            ("Touchable", 0, 1),
         ):
             setattr(display, name, no)
             simple.Render(self.view)
@@ -53,6 +53,21 @@ class TestHapticScene(SceneTest):
             simple.Render(self.view)
             self.hand.step(10)
             self.assertEqual(self.hand.NumberOfTouchableSurfaces, 1, name)
+
+    def test_it_is_touched_however_it_is_drawn(self):
+        display = self.touch(self.make("Sphere"))
+        forces = set()
+        for kind in ("Surface", "Surface With Edges", "Wireframe", "Points", "Outline", "Haptic Surface"):
+            display.SetRepresentationType(kind)
+            simple.Render(self.view)
+            self.hand.set(RecordTrace=0, WorkspaceTransform=16 * [0.0])
+            self.hand.set(RecordTrace=1)
+            self.hand.release()
+            self.hand.step(800)
+            trace = trace_arrays(self.hand)
+            self.assertGreater((trace["ActiveConstraints"] > 0).sum(), 200, kind)
+            forces.add(round(float(abs(trace["Force"]).max()), 9))
+        self.assertEqual(len(forces), 1)
 
     def test_every_kind_of_data_whose_outside_is_a_surface_is_touched(self):
         sphere = self.make("Sphere")
@@ -295,7 +310,7 @@ self.GetOutput().ShallowCopy(sphere.GetOutput())"""
         while not self.hand.Touching and time.monotonic() < end:
             time.sleep(0.01)
             self.hand.update()
-        self.assertEqual((self.hand.Touching, self.hand.State), (1, "Engaged, touching"))
+        self.assertEqual((self.hand.Touching, self.hand.State), (1, "Engaged, touching Sphere1"))
         self.assertGreater(self.hand.Rate, 100.0)
         self.hand.release()
         self.assertEqual((self.hand.ForceMagnitude, self.hand.State), (0.0, "Released"))

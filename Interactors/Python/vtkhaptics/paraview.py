@@ -102,7 +102,7 @@ class Scene:
         return self.proxy.GetClientSideObject().GetPicture()
 
     def touch(self, source=None, view=None):
-        """Shows a source (by default the active one) as Haptic Surface and adds it to the scene."""
+        """Makes a source (by default the active one) touchable, however it is drawn; adds it to the scene."""
         source = source or simple.GetActiveSource()
         if not source:
             raise HapticsError("There is no source to touch. Give one, or make one active.")
@@ -115,13 +115,7 @@ class Scene:
             display = simple.Show(source, view)
         except RuntimeError as error:
             raise HapticsError(f"{source.GetXMLLabel()} cannot be shown: {error}") from error
-        names = display.SMProxy.GetProperty("Representation")
-        if not names or "Haptic Surface" not in display.GetProperty("Representation").Available:
-            raise HapticsError(
-                f"{source.GetXMLLabel()} has no surface to touch here. Give a source of surfaces or "
-                "volumes, for example the output of Extract Surface or Contour."
-            )
-        display.SetRepresentationType("Haptic Surface")
+        _make_touchable(display)
         if self.View != view:
             self.set(View=view, Surfaces=[])
         if display not in self.Surfaces:
@@ -131,6 +125,8 @@ class Scene:
 
     def touch_only(self, *displays):
         """Touches these representations, of one view, and nothing else."""
+        for display in displays:
+            _make_touchable(display)
         view = simple.LocateView(displays[0]) if displays else None
         if view and self.View != view:
             self.set(View=view)
@@ -197,6 +193,17 @@ class Scene:
     def landmark_source(self, name="HapticLandmarks"):
         """The landmarks as a new source of the pipeline."""
         return _source(self.landmarks(), name)
+
+
+def _make_touchable(display):
+    if not display.SMProxy.GetProperty("Touchable"):
+        raise HapticsError(
+            f"{display.Input.GetXMLLabel()} has no surface to touch here. Give a source of surfaces or "
+            "volumes, for example the output of Extract Surface or Contour."
+        )
+    display.Touchable = 1
+    if display.Representation == "Outline":
+        display.SetRepresentationType("Surface")  # an outline hides what is touched
 
 
 def _source(record, name):

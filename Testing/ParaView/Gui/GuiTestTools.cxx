@@ -40,15 +40,31 @@ bool waitUntil(const std::function<bool()>& isSo, double seconds)
   return QTest::qWaitFor(isSo, static_cast<int>(1000.0 * seconds));
 }
 
+QAction* findAction(const char* name)
+{
+  const QList<QWidget*> widgets = pqCoreUtilities::mainWidget()->findChildren<QWidget*>();
+  for (QWidget* widget : widgets)
+  {
+    for (QAction* action : widget->actions())
+    {
+      if (action->objectName() == name)
+      {
+        return action;
+      }
+    }
+  }
+  return nullptr;
+}
+
 void pressTouch()
 {
   auto* toolBar = find<QToolBar>("HapticsToolBar");
-  QTest::mouseClick(toolBar->widgetForAction(find<QAction>("actionTouch")), Qt::LeftButton);
+  QTest::mouseClick(toolBar->widgetForAction(findAction("actionTouch")), Qt::LeftButton);
 }
 
 bool touchIsDown()
 {
-  return find<QAction>("actionTouch")->isChecked();
+  return findAction("actionTouch")->isChecked();
 }
 
 vtkSMProxy* scene()
@@ -179,6 +195,13 @@ QString representationType()
     .GetAsString();
 }
 
+bool isTouchable()
+{
+  return vtkSMPropertyHelper(
+           pqActiveObjects::instance().activeRepresentation()->getProxy(), "Touchable")
+           .GetAsInt() != 0;
+}
+
 bool engaged()
 {
   return clientScene() && clientScene()->GetEngaged();
@@ -205,7 +228,7 @@ void setDevice(const char* name)
 {
   if (!scene())
   {
-    pressTouch(); // which makes the scene
+    pressTouch(); // which makes the scene, where there is something to touch
     pressTouch();
   }
   vtkSMPropertyHelper(scene(), "Device").Set(name);

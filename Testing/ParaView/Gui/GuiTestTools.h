@@ -7,6 +7,7 @@
 
 #include <functional>
 
+class QAction;
 class pqPipelineSource;
 class pqView;
 class vtkPVHapticScene;
@@ -18,12 +19,15 @@ namespace GuiTest
 /// Lets ParaView go on until something is so. False where it is not after `seconds`.
 bool waitUntil(const std::function<bool()>& isSo, double seconds = 10.0);
 
-/// A widget or an action of the main window by its name; null where there is none.
+/// A widget of the main window by its name; null where there is none.
 template <class T>
 T* find(const char* name)
 {
   return pqCoreUtilities::mainWidget()->findChild<T*>(name);
 }
+
+/// An action of the menu bar or a tool bar by its name; null where there is none.
+QAction* findAction(const char* name);
 
 /// Clicks the toolbar's button Touch, as a mouse does.
 void pressTouch();
@@ -57,6 +61,8 @@ void turnWheel(double x, double y, int notches);
 
 /// The representation of the active source, as the toolbar names it.
 QString representationType();
+/// Whether that can be touched.
+bool isTouchable();
 bool engaged();
 bool touching();
 /// Waits until the surfaces are built; then the wheel takes the hand to the surface at that height

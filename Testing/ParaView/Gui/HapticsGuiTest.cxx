@@ -20,6 +20,7 @@
 #include "vtkSMProxy.h"
 
 #include <QAbstractButton>
+#include <QAction>
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QFileInfo>
@@ -34,7 +35,6 @@ using namespace GuiTest;
 
 namespace
 {
-const QString HapticSurface = "Haptic Surface";
 // What ParaView's own tests allow: antialiasing and text differ between drivers.
 constexpr double ImageThreshold = 20.0;
 
@@ -74,7 +74,7 @@ void HapticsGuiTest::touchFeelsAWaveletContour()
   QCOMPARE(takeComplaint(), QString());
   QVERIFY(touchIsDown());
   QVERIFY(engaged());
-  QCOMPARE(representationType(), HapticSurface);
+  QCOMPARE(representationType(), QString("Surface"));
   QCOMPARE(find<QComboBox>("device")->currentText(), QString("Mouse"));
 
   QVERIFY(press());
@@ -104,12 +104,19 @@ void HapticsGuiTest::touchFeelsARealMesh()
   QVERIFY(looksLike("TouchARealMesh.png"));
 }
 
-void HapticsGuiTest::touchWithoutASourceTellsWhatToDo()
+void HapticsGuiTest::touchIsDisabledWhereNothingCanBeTouchedAndSaysWhy()
 {
-  pressTouch();
-  QVERIFY(takeComplaint().contains("No source is selected"));
-  QVERIFY(!touchIsDown());
-  QVERIFY(!engaged());
+  auto* touch = findAction("actionTouch");
+  QVERIFY(!touch->isEnabled());
+  QVERIFY2(touch->toolTip().contains("No source is selected"), qPrintable(touch->toolTip()));
+  makeWaveletContour();
+  QVERIFY(touch->isEnabled());
+  QVERIFY(!touch->toolTip().contains("No source"));
+  pqObjectBuilder* builder = pqApplicationCore::instance()->getObjectBuilder();
+  pqActiveObjects::instance().setActiveView(
+    builder->createView("XYChartView", pqActiveObjects::instance().activeServer()));
+  QVERIFY(!touch->isEnabled());
+  QVERIFY2(touch->toolTip().contains("Click into a render view"), qPrintable(touch->toolTip()));
 }
 
 void HapticsGuiTest::touchOfPointsTellsWhatToDo()
@@ -128,15 +135,18 @@ void HapticsGuiTest::touchOfPointsTellsWhatToDo()
   QVERIFY(!engaged());
 }
 
-void HapticsGuiTest::touchInAChartViewTellsWhatToDo()
+void HapticsGuiTest::touchOfASecondSourceAddsIt()
 {
   makeWaveletContour();
-  pqObjectBuilder* builder = pqApplicationCore::instance()->getObjectBuilder();
-  pqActiveObjects::instance().setActiveView(
-    builder->createView("XYChartView", pqActiveObjects::instance().activeServer()));
   pressTouch();
-  QVERIFY(takeComplaint().contains("Click into a render view"));
-  QVERIFY(!touchIsDown());
+  QVERIFY(touchIsDown());
+  makeSource("SphereSource");
+  QVERIFY2(!touchIsDown(), "The button shows whether what is selected is touched.");
+  pressTouch();
+  QVERIFY(touchIsDown());
+  QVERIFY(engaged());
+  QCOMPARE(vtkSMPropertyHelper(scene(), "Surfaces").GetNumberOfElements(), 2u);
+  pressTouch();
   QVERIFY(!engaged());
 }
 
@@ -166,6 +176,10 @@ void HapticsGuiTest::deletingTheTouchedSourceLeavesFreeSpace()
   QVERIFY(waitUntil([] { return !touching(); }));
   QCOMPARE(clientScene()->GetForceMagnitude(), 0.0);
   QCOMPARE(vtkSMPropertyHelper(scene(), "Surfaces").GetNumberOfElements(), 0u);
+  QVERIFY(!engaged());
+  QCOMPARE(QString(clientScene()->GetMessage()), QString()); // no error: the user did it
+  QCOMPARE(takeComplaint(), QString());
+  QVERIFY(QString(clientScene()->GetState()).contains("nothing is left to touch"));
 }
 
 void HapticsGuiTest::resettingTheSessionReleasesTheHand()
@@ -180,7 +194,7 @@ void HapticsGuiTest::resettingTheSessionReleasesTheHand()
   QVERIFY(!engaged());
 }
 
-void HapticsGuiTest::undoTakesTheRepresentationBack()
+void HapticsGuiTest::undoTakesTouchBack()
 {
   makeWaveletContour();
   pressTouch();
@@ -189,10 +203,10 @@ void HapticsGuiTest::undoTakesTheRepresentationBack()
   pqUndoStack* stack = pqApplicationCore::instance()->getUndoStack();
   QCOMPARE(stack->undoLabel(), QString("Touch"));
   stack->undo();
-  QCOMPARE(representationType(), QString("Surface"));
+  QVERIFY(!isTouchable());
   QVERIFY(!engaged());
   stack->redo();
-  QCOMPARE(representationType(), HapticSurface);
+  QVERIFY(isTouchable());
   QVERIFY(!engaged()); // a device starts only when a user says so
 }
 

@@ -15,13 +15,13 @@ private Q_SLOTS:
   // HapticsGuiTest.cxx: the button, and what may go wrong
   void touchFeelsAWaveletContour();
   void touchFeelsARealMesh();
-  void touchWithoutASourceTellsWhatToDo();
+  void touchIsDisabledWhereNothingCanBeTouchedAndSaysWhy();
   void touchOfPointsTellsWhatToDo();
-  void touchInAChartViewTellsWhatToDo();
+  void touchOfASecondSourceAddsIt();
   void closingTheViewReleasesTheHand();
   void deletingTheTouchedSourceLeavesFreeSpace();
   void resettingTheSessionReleasesTheHand();
-  void undoTakesTheRepresentationBack();
+  void undoTakesTouchBack();
   void undoTakesTheFilterBack();
   void aDeviceThatIsNotThereTellsSo();
 

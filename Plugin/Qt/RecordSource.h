@@ -1,0 +1,21 @@
+#ifndef Haptics_RecordSource_h
+#define Haptics_RecordSource_h
+
+class vtkPolyData;
+class vtkSMProxy;
+
+namespace haptics
+{
+///@{
+/// @brief Makes a source of what the hand has left, on the active server, and shows it in the view.
+///
+/// The source (a vtkHapticRecordSource) holds the points and their arrays itself: it is in state
+/// files and traces, and undo takes it back. What was selected stays so: it is what the user goes
+/// on to touch. Returns the source, or null without a server. GUI thread.
+vtkSMProxy* MakeLandmarksSource(vtkPolyData* landmarks);
+/// Coloured by the array ForceMagnitude [N], where it has one.
+vtkSMProxy* MakeTraceSource(vtkPolyData* trace);
+///@}
+}
+
+#endif

@@ -1,0 +1,181 @@
+#include "pqHapticsActions.h"
+
+#include "RecordSource.h"
+#include "pqApplicationCore.h"
+#include "pqHapticsManager.h"
+#include "pqHapticsRecorder.h"
+#include "vtkHapticLandmarks.h"
+#include "vtkHapticScene.h"
+#include "vtkMouseHapticDevice.h"
+#include "vtkPVHapticScene.h"
+
+#include <QAction>
+#include <QIcon>
+#include <QPointer>
+
+namespace
+{
+const QString TouchTip =
+  "Touch the selected sources with a haptic device; press again to release it";
+}
+
+pqHapticsActions* pqHapticsActions::instance()
+{
+  static QPointer<pqHapticsActions> actions;
+  if (!actions)
+  {
+    actions = new pqHapticsActions(pqApplicationCore::instance());
+  }
+  return actions;
+}
+
+pqHapticsActions::pqHapticsActions(QObject* parent)
+  : Superclass(parent)
+  , Manager(pqHapticsManager::instance())
+{
+  this->makeRunning();
+  this->makeMarking();
+  this->connect(this->Manager, &pqHapticsManager::updated, this, &pqHapticsActions::followHand);
+  this->connect(
+    this->Manager, &pqHapticsManager::engagedChanged, this, &pqHapticsActions::followHand);
+  this->connect(
+    this->Manager, &pqHapticsManager::choiceChanged, this, &pqHapticsActions::followSelection);
+  this->followSelection();
+  this->followHand();
+}
+
+QAction* pqHapticsActions::add(
+  const char* name, const QString& text, const QKeySequence& keys, const QString& tip)
+{
+  auto* action = new QAction(text, this);
+  action->setObjectName(name);
+  action->setShortcut(keys);
+  action->setAutoRepeat(false); // one press of a key is one action, however long it is held
+  action->setToolTip(tip);
+  action->setStatusTip(tip);
+  this->Actions.append(action);
+  return action;
+}
+
+void pqHapticsActions::makeRunning()
+{
+  pqHapticsManager* manager = this->Manager;
+  // triggered(), not toggled(): only what a user does, not an action following the hand.
+  this->Touch = this->add("actionTouch", "Touch", QKeySequence("Ctrl+Shift+T"), TouchTip);
+  this->Touch->setIcon(QIcon(":/Haptics/Touch.svg"));
+  this->Touch->setCheckable(true);
+  this->connect(this->Touch, &QAction::triggered, manager,
+    [this, manager](bool on)
+    {
+      on ? manager->touch() : manager->setEngaged(false);
+      this->followSelection();
+    });
+
+  this->Engage = this->add("actionHapticEngage", "Engage", QKeySequence("Ctrl+Shift+E"),
+    "Start the device on what is touchable in the active view, or release it: zero force");
+  this->Engage->setCheckable(true);
+  this->connect(this->Engage, &QAction::triggered, manager,
+    [this, manager](bool on)
+    {
+      manager->setEngaged(on);
+      this->followHand();
+    });
+
+  this->Press = this->add("actionHapticPress", "Press", QKeySequence(),
+    "Let the mouse hand press, as the held space bar does, until this is chosen again");
+  this->Press->setCheckable(true);
+  this->connect(this->Press, &QAction::triggered, manager,
+    [manager](bool on)
+    {
+      if (vtkMouseHapticDevice* mouse = manager->mouse())
+      {
+        mouse->SetPressed(on);
+      }
+    });
+
+  this->Clutch = this->add("actionHapticClutch", "Clutch", QKeySequence("K"),
+    "While it is on, nothing is touched and the hand in the picture stays");
+  this->Clutch->setCheckable(true);
+  this->connect(this->Clutch, &QAction::triggered, manager,
+    [manager](bool on) { manager->set("Haptic Clutch", "Clutched", on); });
+}
+
+void pqHapticsActions::makeMarking()
+{
+  pqHapticsManager* manager = this->Manager;
+  this->Drop = this->add("actionHapticDropLandmark", "Drop Landmark", QKeySequence("L"),
+    "Mark the point that is touched; the hand stays where it is");
+  this->connect(
+    this->Drop, &QAction::triggered, manager, [manager] { manager->command("DropLandmark"); });
+  this->RemoveLast = this->add("actionHapticRemoveLandmark", "Remove Last Landmark",
+    QKeySequence("Shift+L"), "Take the last landmark away");
+  this->connect(this->RemoveLast, &QAction::triggered, manager,
+    [manager] { manager->command("RemoveLastLandmark"); });
+  this->LandmarksToSource = this->add("actionHapticLandmarksToSource", "Landmarks to Source",
+    QKeySequence(), "Make a source of the landmarks, with force, normal and cell at each");
+  this->connect(this->LandmarksToSource, &QAction::triggered, manager,
+    [manager]
+    {
+      if (vtkHapticScene* hand = manager->hand())
+      {
+        haptics::MakeLandmarksSource(hand->GetLandmarks()->GetOutput());
+      }
+    });
+
+  this->Paint = this->add("actionHapticPaint", "Paint Selection", QKeySequence("P"),
+    "While it is on, the cells that are touched are added to ParaView's selection");
+  this->Paint->setCheckable(true);
+
+  pqHapticsRecorder* recorder = manager->recorder();
+  this->Record = this->add("actionHapticRecord", "Record...", QKeySequence("Ctrl+Shift+R"),
+    "Write every tick of what the device does to a file, from the next Engage until it is "
+    "released; choose the file as the device to play it");
+  this->Record->setCheckable(true);
+  this->connect(this->Record, &QAction::triggered, recorder, &pqHapticsRecorder::arm);
+  this->KeepTrace = this->add("actionHapticKeepTrace", "Keep Trace", QKeySequence(),
+    "Keep every tick of the hand, up to ten minutes, for Trace to Source; begins anew each time");
+  this->KeepTrace->setCheckable(true);
+  this->connect(this->KeepTrace, &QAction::triggered, manager,
+    [manager](bool on) { manager->set("Keep Haptic Trace", "RecordTrace", on); });
+  this->TraceToSource = this->add("actionHapticTraceToSource", "Trace to Source", QKeySequence(),
+    "Make a source of where the hand went and what it felt while Keep Trace was on");
+  this->connect(this->TraceToSource, &QAction::triggered, manager,
+    [manager]
+    {
+      if (vtkHapticScene* hand = manager->hand())
+      {
+        haptics::MakeTraceSource(hand->GetTrace());
+      }
+    });
+}
+
+void pqHapticsActions::followSelection()
+{
+  const QString reason = this->Manager->whyNotTouch();
+  const bool isTouched = this->Manager->isTouchingSelection();
+  this->Touch->setChecked(isTouched);
+  this->Touch->setEnabled(isTouched || reason.isEmpty());
+  this->Touch->setToolTip(isTouched || reason.isEmpty() ? TouchTip : "Touch: " + reason);
+}
+
+void pqHapticsActions::followHand()
+{
+  vtkPVHapticScene* scene = this->Manager->clientScene();
+  vtkMouseHapticDevice* mouse = this->Manager->mouse();
+  const bool isEngaged = this->Manager->isEngaged();
+  const int landmarks = scene ? scene->GetNumberOfLandmarks() : 0;
+  this->Engage->setChecked(isEngaged);
+  this->Press->setEnabled(isEngaged && mouse);
+  this->Press->setChecked(mouse && mouse->GetPressed());
+  this->Clutch->setEnabled(isEngaged);
+  this->Clutch->setChecked(scene && scene->GetClutched());
+  this->Drop->setEnabled(isEngaged && scene->GetTouching());
+  this->RemoveLast->setEnabled(landmarks > 0);
+  this->LandmarksToSource->setEnabled(landmarks > 0);
+  this->Paint->setEnabled(isEngaged);
+  this->Record->setChecked(this->Manager->recorder()->isArmed());
+  const bool keepsTrace = scene && scene->GetRecordTrace();
+  this->KeepTrace->setChecked(keepsTrace);
+  this->HasTrace = this->HasTrace || (keepsTrace && isEngaged);
+  this->TraceToSource->setEnabled(scene && this->HasTrace);
+}
