@@ -625,10 +625,14 @@ bool vtkMouseHapticDevice::IsSmooth(const View& view, const Place& before)
   }
   const int width = std::max(
     std::abs(this->Cursor[0] - before.Cursor[0]), std::abs(this->Cursor[1] - before.Cursor[1]));
-  const int places = std::min(width - 1, MostPlacesBetween);
+  const int places = std::clamp(width - 1, 0, MostPlacesBetween);
   const double ends[2] = { view.Depth(before.Hit), view.Depth(this->Hit) };
+  double normals[2][3]; // of two neighbours
+  std::copy(before.Normal, before.Normal + 3, normals[0]);
   for (int i = 1; i <= places; ++i)
   {
+    double* const previous = normals[(i - 1) % 2];
+    double* const normal = normals[i % 2];
     // The rays between: the two at the ends, mixed as their points are.
     const double share = static_cast<double>(i) / (places + 1);
     double between[3];
@@ -640,13 +644,14 @@ bool vtkMouseHapticDevice::IsSmooth(const View& view, const Place& before)
     double direction[3];
     view.RayOf(between, from, direction);
     double hit[3];
-    if (!this->Scene->IntersectRay(from, direction, hit) ||
+    if (!this->Scene->IntersectRay(from, direction, hit, normal) ||
+      vtkMath::Dot(previous, normal) < SharpestEdge ||
       std::abs(view.Depth(hit) - (ends[0] + share * (ends[1] - ends[0]))) > DeepestFold * depth)
     {
       return false;
     }
   }
-  return true;
+  return vtkMath::Dot(normals[places % 2], this->Normal) >= SharpestEdge;
 }
 
 /// Brings the hand to where the cursor is: over the surface, or into it. While it presses it goes
