@@ -62,19 +62,20 @@ vtkSmartPointer<vtkDoubleArray> Vectors(
 }
 }
 
-TraceTick::TraceTick(const TickRecord& record, std::int32_t surface, std::int64_t cell)
+TraceTick::TraceTick(const TickRecord& record, const TracePlace& place)
   : Time(record.Time)
   , Hip(record.Hip)
   , GodObject(record.Position)
   , Force(record.WorldForce)
   , Normal(record.NumberOfConstraints > 0 ? record.Constraints[0].Normal : Vec3{})
-  , Weights(record.Weights)
+  , Weights(place.Weights)
   , Penetration(record.Penetration)
   , Stiffness(record.Stiffness)
   , Energy(record.Energy)
   , Tank(record.Tank)
-  , Cell(cell)
-  , Surface(surface)
+  , Cell(place.Cell)
+  , Points(place.Points)
+  , Surface(place.Surface)
   , ActiveConstraints(record.NumberOfConstraints)
 {
 }
@@ -84,10 +85,10 @@ void TraceRecorder::Write(vtkPolyData* trace, double unitLength) const
   const std::string unit = LengthUnitName(unitLength);
   const char* const length = unit.c_str();
   trace->Initialize();
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->SetData(Vectors("GodObject", this->Ticks, &TraceTick::GodObject, length));
-  trace->SetPoints(points);
+  vtkNew<vtkPoints> way;
+  way->SetDataTypeToDouble();
+  way->SetData(Vectors("GodObject", this->Ticks, &TraceTick::GodObject, length));
+  trace->SetPoints(way);
   if (!this->Ticks.empty())
   {
     std::vector<vtkIdType> line(this->Ticks.size());
@@ -105,6 +106,16 @@ void TraceRecorder::Write(vtkPolyData* trace, double unitLength) const
     trace, "ActiveConstraints", this->Ticks, &TraceTick::ActiveConstraints, nullptr);
   AddScalar<vtkIntArray>(trace, "Surface", this->Ticks, &TraceTick::Surface, nullptr);
   AddScalar<vtkIdTypeArray>(trace, "OriginalCellId", this->Ticks, &TraceTick::Cell, nullptr);
+  vtkNew<vtkIdTypeArray> points;
+  points->SetName("PointIds");
+  points->SetNumberOfComponents(3);
+  points->SetNumberOfTuples(this->Size());
+  for (vtkIdType i = 0; i < this->Size(); ++i)
+  {
+    const std::array<std::int32_t, 3>& ids = this->Ticks[static_cast<std::size_t>(i)].Points;
+    points->SetTuple3(i, ids[0], ids[1], ids[2]);
+  }
+  data->AddArray(points);
   data->AddArray(Vectors("BarycentricWeights", this->Ticks, &TraceTick::Weights, nullptr));
   AddScalar<vtkDoubleArray>(trace, "Penetration", this->Ticks, &TraceTick::Penetration, length);
   AddScalar<vtkDoubleArray>(trace, "Stiffness", this->Ticks, &TraceTick::Stiffness, "N/m");

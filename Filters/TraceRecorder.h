@@ -6,6 +6,7 @@
 #include "vtkHapticsFiltersModule.h"
 #include "vtkType.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -13,6 +14,15 @@ class vtkPolyData;
 
 namespace haptics
 {
+/// What a tick's first constraint belongs to, as its user knows it; -1 for none.
+struct TracePlace
+{
+  std::int32_t Surface = -1;
+  std::int64_t Cell = -1;                           ///< of the surface as it was given
+  std::array<std::int32_t, 3> Points{ -1, -1, -1 }; ///< likewise: the corners
+  Vec3 Weights{}; ///< of the corners: TickRecord::Weights in their order
+};
+
 /// One tick as a trace has it; everything in the world frame.
 struct TraceTick
 {
@@ -21,18 +31,18 @@ struct TraceTick
   Vec3 GodObject{};
   Vec3 Force{};   ///< on the hand [N], the world's axes
   Vec3 Normal{};  ///< unit, of the surface, towards the god-object; 0 in free space
-  Vec3 Weights{}; ///< see TickRecord
+  Vec3 Weights{}; ///< see TracePlace
   double Penetration = 0.0;
   double Stiffness = 0.0; ///< in effect [N/m]
   double Energy = 0.0;    ///< what the hand has put in since the first tick and not got out [J]
   double Tank = 0.0;      ///< of surfaces with properties [J]
-  std::int64_t Cell = -1; ///< of the surface as it was given
+  std::int64_t Cell = -1;
+  std::array<std::int32_t, 3> Points{ -1, -1, -1 };
   std::int32_t Surface = -1;
   std::int32_t ActiveConstraints = 0;
 
   TraceTick() = default;
-  /// `surface` and `cell`: what the record's first constraint belongs to, -1 for none.
-  TraceTick(const TickRecord& record, std::int32_t surface, std::int64_t cell);
+  TraceTick(const TickRecord& record, const TracePlace& place);
 };
 static_assert(sizeof(TraceTick) <= 192, "vtkHapticTraceRecorder documents 192 bytes a tick");
 

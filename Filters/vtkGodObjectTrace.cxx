@@ -15,9 +15,11 @@
 
 #include "vtkAlgorithmOutput.h"
 #include "vtkBoundingBox.h"
+#include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCommand.h"
 #include "vtkDataArray.h"
+#include "vtkIdList.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -322,6 +324,9 @@ void vtkGodObjectTrace::Replay(vtkPolyData* path, vtkGodObjectFilter* prepared, 
   const vtkIdType ticks = path->GetNumberOfPoints();
   vtkIdTypeArray* const originalCells = vtkIdTypeArray::SafeDownCast(
     prepared->GetOutput()->GetCellData()->GetAbstractArray("OriginalCellId"));
+  vtkIdTypeArray* const originalPoints = vtkIdTypeArray::SafeDownCast(
+    prepared->GetOutput()->GetPointData()->GetAbstractArray("OriginalPointId"));
+  vtkNew<vtkIdList> corners;
   std::vector<haptics::TouchedSurface> surfaces;
   if (prepared->GetSurface())
   {
@@ -373,8 +378,19 @@ void vtkGodObjectTrace::Replay(vtkPolyData* path, vtkGodObjectFilter* prepared, 
     {
       touched->Add(i, isHeld ? record.Constraints[0].Triangle : -1, record.Weights);
     }
-    recorder.Add({ record, isHeld ? 0 : -1,
-      isHeld ? originalCells->GetValue(record.Constraints[0].Triangle) : -1 });
+    haptics::TracePlace place;
+    if (isHeld)
+    {
+      const vtkIdType triangle = record.Constraints[0].Triangle;
+      prepared->GetOutput()->GetPolys()->GetCellAtId(triangle, corners);
+      place = { 0, originalCells->GetValue(triangle), {}, record.Weights };
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        place.Points[k] = static_cast<std::int32_t>(
+          originalPoints->GetValue(corners->GetId(static_cast<vtkIdType>(k))));
+      }
+    }
+    recorder.Add({ record, place });
   }
   if (heldTicks > 0)
   {

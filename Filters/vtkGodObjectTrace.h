@@ -20,7 +20,9 @@
  * - `Surface`: 0, and -1 in free space;
  * - `OriginalCellId`: the cell touched, -1 in free space. Of several, the one that pushes most. It
  *   counts the cells of port 1, or of the input of the vtkGodObjectFilter that port 1 comes from;
- * - `BarycentricWeights` (3): of the corners of the triangle that pushes most, 0 in free space;
+ * - `PointIds` (3): the corners of the triangle that pushes most, -1 in free space; they count the
+ *   points of what `OriginalCellId` counts the cells of;
+ * - `BarycentricWeights` (3): how much each of them counts there, sum 1, 0 in free space;
  * - `Normal` (3): unit, of that surface, towards the god-object, 0 in free space;
  * - `Penetration`: distance from HIP to god-object [world unit];
  * - `Stiffness`: in effect [N/m], of the spring or of the surface where it has properties;

@@ -10,10 +10,10 @@ namespace haptics
 {
 class SurfaceSet;
 
-/// @brief Whether a surface is in another unit than the metre, where nobody has chosen a workspace.
+/// @brief Whether surfaces are in another unit than the metre, where nobody has chosen a workspace.
 ///
-/// There a device touches next to nothing of it, with a force that has little to do with it. GUI
-/// thread.
+/// There a device touches next to nothing of one that is too large, with a force that has little to
+/// do with it, and does not find what is too small. GUI thread.
 class ReachCheck
 {
 public:

@@ -1,9 +1,16 @@
 #include "haptics/Scene/SurfaceSet.h"
 
+#include "haptics/Filters/DataPoints.h"
 #include "haptics/Scene/HapticProbeFiller.h"
 #include "haptics/Scene/SurfaceRay.h"
+#include "vtkCellArray.h"
+#include "vtkDataArray.h"
+#include "vtkIdList.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace haptics
 {
@@ -250,7 +257,13 @@ void SurfaceSet::Published(std::uint64_t generation)
   entries.clear();
   for (const HapticSurface* surface : this->Listed())
   {
-    entries.push_back({ surface->Id(), surface->OriginalCellIds(), surface->Touched() });
+    vtkPolyData* const prepared = surface->Prepared();
+    const bool isExchanged = prepared &&
+      prepared->GetNumberOfPolys() ==
+        static_cast<vtkIdType>(surface->Touched()->Triangles().size()) &&
+      HasExchangedCorners(prepared, *surface->Touched());
+    entries.push_back(
+      { surface->Id(), surface->OriginalCellIds(), surface->Touched(), prepared, isExchanged });
   }
 }
 
@@ -280,6 +293,49 @@ SceneCell SurfaceSet::Locate(const TickRecord& tick) const
   return found;
 }
 
+/// The arrays are those of now, or where the geometry has changed since those of then.
+vtkPolyData* SurfaceSet::PreparedOf(const Entry& entry) const
+{
+  const HapticSurface* const surface = this->Find(entry.Id);
+  vtkPolyData* const prepared =
+    surface && surface->Touched() == entry.Touched ? surface->Prepared() : entry.Prepared.Get();
+  const auto triangles = static_cast<vtkIdType>(entry.Touched->Triangles().size());
+  return prepared && prepared->GetNumberOfPolys() == triangles ? prepared : nullptr;
+}
+
+TouchedPlace SurfaceSet::Trace(const TickRecord& tick) const
+{
+  TouchedPlace place;
+  const Entry* const entry = this->Find(tick, 0);
+  if (!entry)
+  {
+    return place;
+  }
+  const SceneCell cell = this->Locate(tick);
+  const HapticSurface* const surface = this->Find(entry->Id);
+  place.Triangle = tick.Constraints[0].Triangle;
+  place.Prepared = this->PreparedOf(*entry);
+  place.Name = surface ? &surface->Name : nullptr;
+  place.Traced = { cell.Surface, cell.Cell, { -1, -1, -1 }, tick.Weights };
+  if (entry->HasExchangedCorners)
+  {
+    std::swap(place.Traced.Weights[1], place.Traced.Weights[2]);
+  }
+  vtkDataArray* const originals =
+    place.Prepared ? place.Prepared->GetPointData()->GetArray("OriginalPointId") : nullptr;
+  if (originals)
+  {
+    vtkNew<vtkIdList> corners;
+    place.Prepared->GetPolys()->GetCellAtId(place.Triangle, corners);
+    for (vtkIdType k = 0; k < 3; ++k)
+    {
+      place.Traced.Points[static_cast<std::size_t>(k)] =
+        static_cast<std::int32_t>(originals->GetComponent(corners->GetId(k), 0));
+    }
+  }
+  return place;
+}
+
 Vec3 SurfaceSet::PointOf(const TickRecord& tick, const HapticSurface& surface) const
 {
   const Entry* entry = this->Find(tick, 0);
@@ -296,13 +352,11 @@ void SurfaceSet::Probe(const TickRecord& tick, vtkHapticProbe* probe) const
   vtkHapticProbeFiller::SetTick(probe, tick);
   if (const Entry* entry = this->Find(tick, 0))
   {
-    // The arrays are those of now; where the geometry has changed since there are none for it.
     const HapticSurface* surface = this->Find(entry->Id);
-    const bool unchanged = surface && surface->Touched() == entry->Touched;
     vtkHapticProbeFiller::SetContact(probe, tick,
       { entry->Id, surface ? surface->Name : "", this->Locate(tick).Cell, entry->Touched,
         surface ? surface->Pose() : RigidPose() },
-      unchanged ? surface->Prepared() : nullptr);
+      this->PreparedOf(*entry));
   }
 }
 

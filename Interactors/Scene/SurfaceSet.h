@@ -5,6 +5,7 @@
 #include "haptics/Scene/HapticAssembly.h"
 #include "haptics/Scene/HapticSurface.h"
 #include "haptics/Scene/SurfaceRay.h"
+#include "haptics/Scene/TouchedPlace.h"
 #include "haptics/Tick/TickRecord.h"
 
 #include <cstdint>
@@ -93,6 +94,8 @@ public:
 
   /// What the first constraint of a tick belongs to.
   SceneCell Locate(const TickRecord& tick) const;
+  /// The same for a trace.
+  TouchedPlace Trace(const TickRecord& tick) const;
   /// Where the god-object was in a tick, in the frame that a surface's Pose() moves: exactly where
   /// it held the god-object, else as it is now.
   Vec3 PointOf(const TickRecord& tick, const HapticSurface& surface) const;
@@ -108,7 +111,10 @@ private:
     int Id;
     HapticSurface::CellIds Cells;
     HapticSurface::Snapshot Touched;
+    vtkSmartPointer<vtkPolyData> Prepared; ///< Touched's triangles, with the arrays of then
+    bool HasExchangedCorners;              ///< Touched's, against Prepared's
   };
+  vtkPolyData* PreparedOf(const Entry& entry) const;
   const Entry* Find(const TickRecord& tick, int constraint) const;
   /// Those that a god-object has, in its order: what is gripped comes last.
   std::vector<const HapticSurface*> Listed() const;

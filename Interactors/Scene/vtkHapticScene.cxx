@@ -581,8 +581,7 @@ void vtkHapticScene::PullRecords()
     this->Internal->Events.Take(record, this->Internal->Surfaces, this);
     if (this->TraceRecorder->GetRecording())
     {
-      const haptics::SceneCell cell = this->Internal->Surfaces.Locate(record);
-      this->TraceRecorder->Add(record, cell.Surface, cell.Cell);
+      this->TraceRecorder->Add(record, this->Internal->Surfaces.Trace(record));
     }
   }
   if (!records.empty())
@@ -818,4 +817,17 @@ void vtkHapticScene::WarnOfReach()
   {
     vtkWarningMacro(<< warning);
   }
+}
+
+void vtkHapticScene::SetUnitLength(double metres)
+{
+  this->ForgetMessage();
+  this->Workspace->SetUnitLength(metres);
+  const double unitLength = this->GetUnitLength();
+  this->TraceRecorder->SetUnitLength(unitLength);
+}
+
+double vtkHapticScene::GetUnitLength()
+{
+  return this->Workspace->GetUnitLength();
 }

@@ -231,8 +231,9 @@ public:
   ///@{
   /**
    * Where the reach of the device lies in the world. Never null. While it was never set nor fitted,
-   * a surface more than 30 times as large as the device then reaches, in millimetres for instance,
-   * is a warning, once, when the scene engages or steps.
+   * surfaces the largest of which has more than 30 times the size of what the device then reaches,
+   * in millimetres for instance, or less than a hundredth of it are a warning, once, when the scene
+   * engages or steps.
    */
   vtkHapticWorkspace* GetWorkspace();
   /**
@@ -241,6 +242,16 @@ public:
    * surface can be touched or there is no device.
    */
   bool FitWorkspace(vtkCamera* camera = nullptr);
+  ///@}
+  ///@{
+  /**
+   * Length of a world unit [m]: 0.001 for surfaces in millimetres. Default 0: not known. A trace
+   * then has the unit of its lengths, and a workspace that was never set nor fitted lets surfaces
+   * have their true size in the hand. Range 1e-100 to 1e100; anything else is an error, and the
+   * last one stays.
+   */
+  void SetUnitLength(double metres);
+  double GetUnitLength();
   ///@}
   /** What the hand carries. Never null. */
   vtkHapticGrip* GetGrip();

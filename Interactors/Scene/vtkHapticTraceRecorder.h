@@ -6,7 +6,7 @@
  * scene has stays empty. What goes into the servo, to be played again, is a recording: see
  * vtkHapticServo::SetRecordingFileName().
  *
- * Memory: 192 bytes a tick, up to MaximumTicks.
+ * Memory: 192 bytes a tick, up to MaximumTicks, and 8 for each component of AddSurfaceArray().
  *
  * GUI thread.
  *
@@ -20,11 +20,13 @@
 #include "vtkObject.h"
 
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace haptics
 {
 struct TickRecord;
-class TraceRecorder;
+struct TouchedPlace;
 }
 
 class vtkPolyData;
@@ -63,23 +65,50 @@ public:
   /** Ticks since Start() that the trace lacks: they came faster than the scene took them in. */
   vtkGetMacro(NumberOfLostTicks, vtkIdType);
 
+  ///@{
+  /**
+   * Point and cell arrays of the surfaces that a trace has too, by name, as they are where a
+   * surface is touched. Default none; each takes 8 bytes a component and tick. Names count from the
+   * next Start(). The trace has them as double, NaN in free space and on surfaces without such an
+   * array. One whose name is that of an array below comes as "Surface" and its name. A name that no
+   * surface which was touched had is a warning of Stop().
+   */
+  void AddSurfaceArray(const char* name);
+  void ClearSurfaceArrays();
+  ///@}
+
+  ///@{
+  /**
+   * Length of a world unit [m], for the information of the trace's arrays: the scene sets its own,
+   * see vtkHapticScene::SetUnitLength(). Default 0: not known.
+   */
+  void SetUnitLength(double metres);
+  vtkGetMacro(UnitLength, double);
+  ///@}
+
   /**
    * The trace so far: a polyline of the god-object, one point a tick, world frame, with the point
-   * arrays Time [s], HapticInterfacePoint [world unit], Force [N, world axes], ActiveConstraints,
-   * Surface (id, -1 in free space), OriginalCellId (-1 in free space), Penetration [world unit],
-   * Stiffness (in effect [N/m]), Energy (what the hand has put in since the servo's start and not
-   * got out [J]), EnergyTank [J]: the same arrays as those of a vtkGodObjectTrace.
-   * Made anew at each call; empty where nothing was recorded. Never null.
+   * arrays Time [s], HapticInterfacePoint [world unit], Force [N, world axes], Normal (unit, of the
+   * surface, towards the god-object), ActiveConstraints, Surface (id, -1 in free space),
+   * OriginalCellId (-1 in free space), PointIds (3: the corners of the triangle),
+   * BarycentricWeights (3: of these), Penetration [world unit], Stiffness (in effect [N/m]), Energy
+   * (what the hand has put in since the servo's start and not got out [J]), EnergyTank [J]: the
+   * same arrays with the same units in their information as those of a vtkGodObjectTrace, and those
+   * of the surfaces that were asked for. The field data say what the surfaces that were touched are
+   * called: SurfaceId and SurfaceName. Made anew at each call; empty where nothing was recorded.
+   * Never null.
    */
   vtkPolyData* GetTrace();
+  /** Writes GetTrace() as vtkGodObjectTrace::WriteCSV() does. False and an error where it cannot.
+   */
+  bool WriteCSV(const char* file);
 
 #ifndef __VTK_WRAP__
   /**
-   * For the scene, C++ only: a tick with the surface and the cell that it touched (-1 for none),
-   * and how many ticks of the servo's run were lost so far. Both do nothing to a trace that is not
-   * being recorded.
+   * For the scene, C++ only: a tick with what it touched, and how many ticks of the servo's run
+   * were lost so far. Both do nothing to a trace that is not being recorded.
    */
-  void Add(const haptics::TickRecord& tick, int surface, vtkIdType cell);
+  void Add(const haptics::TickRecord& tick, const haptics::TouchedPlace& place);
   void CountLost(vtkIdType lostInRun);
 #endif
 
@@ -91,8 +120,11 @@ private:
   vtkHapticTraceRecorder(const vtkHapticTraceRecorder&) = delete;
   void operator=(const vtkHapticTraceRecorder&) = delete;
 
-  std::unique_ptr<haptics::TraceRecorder> Ticks;
+  class vtkInternals;
+  std::unique_ptr<vtkInternals> Internals;
   vtkNew<vtkPolyData> Trace;
+  std::vector<std::string> SurfaceArrays;
+  double UnitLength = 0.0;
   bool Recording = false;
   vtkIdType MaximumTicks = 600000;
   vtkIdType NumberOfLostTicks = 0;

@@ -1,5 +1,6 @@
 #include "vtkHapticWorkspace.h"
 
+#include "haptics/Filters/LengthUnit.h"
 #include "haptics/Math/WorkspaceTransform.h"
 #include "haptics/Scene/WorkspaceFit.h"
 #include "haptics/Tick/TickRecord.h"
@@ -57,6 +58,23 @@ bool vtkHapticWorkspace::Move(vtkMatrix4x4* deviceToWorld)
   this->Transform->DeepCopy(deviceToWorld);
   this->Modified();
   return true;
+}
+
+void vtkHapticWorkspace::SetUnitLength(double metres)
+{
+  this->ErrorMessage.clear();
+  if (!haptics::SetLength(this, "UnitLength", this->UnitLength, metres) || this->Chosen)
+  {
+    return;
+  }
+  this->Home->Identity();
+  for (int i = 0; i < 3; ++i)
+  {
+    this->Home->SetElement(i, i, this->UnitLength > 0.0 ? 1.0 / this->UnitLength : 1.0);
+  }
+  vtkNew<vtkMatrix4x4> home;
+  home->DeepCopy(this->Home);
+  this->Move(home);
 }
 
 vtkMatrix4x4* vtkHapticWorkspace::GetTransform()
@@ -168,6 +186,7 @@ void vtkHapticWorkspace::ObeyButtons(unsigned int buttons)
 void vtkHapticWorkspace::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "UnitLength: " << this->UnitLength << " m\n";
   os << indent << "Chosen: " << (this->Chosen ? "yes" : "no") << "\n";
   os << indent << "Clutched: " << (this->Clutched ? "yes" : "no") << "\n";
   os << indent << "ClutchButton: " << this->ClutchButton << "\n";

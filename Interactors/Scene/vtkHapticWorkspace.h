@@ -45,12 +45,22 @@ public:
   ///@{
   /**
    * Device to world: rotation, uniform scale [world unit/m], translation. Default the identity: a
-   * world unit is a metre in the hand. False and an error where the matrix is anything else (a
-   * mirror, a shear, not finite, null); the last one stays. The god-object starts anew at the HIP,
-   * so that no jump is felt. The matrix returned is not to be changed.
+   * world unit is a metre in the hand; with SetUnitLength() the true size. False and an error where
+   * the matrix is anything else (a mirror, a shear, not finite, null); the last one stays. The
+   * god-object starts anew at the HIP, so that no jump is felt. The matrix returned is not to be
+   * changed.
    */
   bool SetTransform(vtkMatrix4x4* deviceToWorld);
   vtkMatrix4x4* GetTransform();
+  ///@}
+  ///@{
+  /**
+   * Length of a world unit [m]; see vtkHapticScene::SetUnitLength(), which is how to set it. A
+   * transform that was never set nor fitted becomes that of the true size: 1000 world units a metre
+   * for 0.001. Default 0: not known, and as if 1. Range 1e-100 to 1e100; anything else is an error.
+   */
+  void SetUnitLength(double metres);
+  vtkGetMacro(UnitLength, double);
   ///@}
   /** How long a metre in the hand is in the world [world unit/m]; 1 by default. */
   double GetScale();
@@ -71,7 +81,7 @@ public:
    */
   bool Scale(double factor);
   /**
-   * Puts the transform back to where it was set or fitted last, or to the identity, and takes the
+   * Puts the transform back to where it was set or fitted last, or to its default, and takes the
    * clutch off: what scaling and clutching have moved since is forgotten.
    */
   void Reset();
@@ -119,6 +129,7 @@ private:
   vtkSmartPointer<vtkHapticServo> Servo;
   vtkNew<vtkMatrix4x4> Transform;
   vtkNew<vtkMatrix4x4> Home; // as it was set or fitted last
+  double UnitLength = 0.0;
   bool Chosen = false;
   bool Clutched = false;
   int ClutchButton = 1;

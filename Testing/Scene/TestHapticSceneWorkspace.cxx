@@ -519,6 +519,7 @@ TEST(HapticSceneWorkspace, EachRemedyForALargeSurfaceHelps)
       scene->SetWorkspaceTransform(millimetres);
     },
     [](vtkHapticScene* scene) { scene->ScaleWorkspace(1000.0); },
+    [](vtkHapticScene* scene) { scene->SetUnitLength(0.001); },
   };
   for (const auto& remedy : remedies)
   {
@@ -537,4 +538,79 @@ TEST(HapticSceneWorkspace, ASurfaceThatTheDeviceCanExploreIsNotReported)
   scene.Ball->SetRadius(1.0);
   scene.Hand.Scene->Step(1);
   EXPECT_TRUE(warnings.Texts.empty());
+}
+
+TEST(HapticSceneWorkspace, ASurfaceFarSmallerThanTheDeviceReachesIsReportedOnce)
+{
+  BallInMillimetres scene;
+  scene.Ball->SetRadius(0.0005); // of 0.2 m
+  Warnings warnings(scene.Hand.Scene);
+  scene.Hand.Scene->Step(1);
+  scene.Hand.Scene->Step(1);
+  ASSERT_EQ(warnings.Texts.size(), 1U);
+  EXPECT_NE(warnings.Texts[0].find("FitWorkspace()"), std::string::npos) << warnings.Texts[0];
+  scene.Hand.Scene->FitWorkspace(); // the remedy
+  scene.Hand.Scene->Step(1);
+  EXPECT_EQ(warnings.Texts.size(), 1U);
+}
+
+TEST(HapticSceneWorkspace, ASmallSurfaceBesideALargeOneIsNotReported)
+{
+  BallInMillimetres scene;
+  scene.Ball->SetRadius(0.0005);
+  scene.Hand.Scene->AddSurface(MakeTable(0.0));
+  Warnings warnings(scene.Hand.Scene);
+  scene.Hand.Scene->Step(1);
+  EXPECT_TRUE(warnings.Texts.empty()) << warnings.Texts[0];
+}
+
+TEST(HapticSceneWorkspace, TheUnitGivesSurfacesTheirTrueSizeInTheHand)
+{
+  BallInMillimetres scene;
+  scene.Hand.Scene->SetUnitLength(0.001);
+  EXPECT_EQ(scene.Hand.Scene->GetUnitLength(), 0.001);
+  scene.Hand.Device->SetPosition(0.0, 0.0, 0.06);
+  scene.Hand.Scene->Step(1);
+  scene.Hand.Device->SetPosition(0.0, 0.0, 0.048);
+  scene.Hand.Scene->Step(1);
+  // The ball has few facets; the hand meets one that is not level.
+  EXPECT_NEAR(scene.Hand.Scene->GetPenetration(), 2.0, 0.1);
+  EXPECT_NEAR(scene.Hand.Scene->GetForce()[2], 1.0, 0.1) << "of 500 N/m, 2 mm deep";
+
+  scene.Hand.Scene->ResetWorkspace();
+  EXPECT_NEAR(scene.Hand.Scene->GetWorkspace()->GetScale(), 1000.0, 1e-9);
+  vtkNew<vtkMatrix4x4> chosen;
+  scene.Hand.Scene->SetWorkspaceTransform(chosen);
+  scene.Hand.Scene->SetUnitLength(0.01);
+  EXPECT_EQ(scene.Hand.Scene->GetWorkspace()->GetScale(), 1.0) << "what was set stays";
+}
+
+TEST(HapticSceneWorkspace, UnitsThatAreNoneAreErrorsAndNothingJumps)
+{
+  BallInMillimetres scene;
+  scene.Hand.Scene->SetUnitLength(0.001);
+  scene.Hand.Device->SetPosition(0.0, 0.0, 0.06);
+  scene.Hand.Scene->Step(1);
+  scene.Hand.Device->SetPosition(0.0, 0.0, 0.048);
+  scene.Hand.Scene->Step(1);
+  const double before = scene.Hand.Scene->GetForce()[2];
+  for (const double bad : { -0.001, std::nan(""), std::numeric_limits<double>::infinity(), 1e-200 })
+  {
+    EventCounter errors(scene.Hand.Scene, vtkCommand::ErrorEvent);
+    scene.Hand.Scene->SetUnitLength(bad);
+    EXPECT_EQ(errors.Count, 1) << bad;
+    EXPECT_NE(
+      std::string(scene.Hand.Scene->GetErrorMessage()).find("UnitLength"), std::string::npos)
+      << scene.Hand.Scene->GetErrorMessage();
+    EXPECT_EQ(scene.Hand.Scene->GetUnitLength(), 0.001);
+    scene.Hand.Scene->Step(1);
+    EXPECT_EQ(scene.Hand.Scene->GetForce()[2], before) << bad;
+  }
+  // Not known: metres again, by the law of every change of the workspace. The ball is 100 m then,
+  // and a hand that was outside of it does not land inside.
+  scene.Hand.Scene->SetUnitLength(0.0);
+  EXPECT_STREQ(scene.Hand.Scene->GetErrorMessage(), "");
+  scene.Hand.Scene->Step(100);
+  const double* const god = scene.Hand.Scene->GetGodObject();
+  EXPECT_GT(std::hypot(god[0], god[1], god[2]), 45.0) << "of 50; few facets";
 }

@@ -48,6 +48,7 @@ from .progress import PATIENCE, ProgressBar
 from .recording import RecordingError, read_recording
 from .stroke import StrokeError, in_device_frame, plan_stroke
 from .surfaces import SurfaceError, read_surface, unit_note, value_arrays
+from .units import METRES, file_unit
 
 EXIT_DONE, EXIT_FAILED, EXIT_INPUT, EXIT_DISPLAY = 0, 1, 2, 3
 SET_SIDE = {"auto": "SetSideToAutomatic", "front": "SetSideToFront", "both": "SetSideToBoth"}
@@ -87,6 +88,9 @@ class Viewer:
             self.surfaces.append(surface)
             self._touch(surface, actor, os.path.basename(path))
             print(unit_note(path, surface, self.options.unit), flush=True)
+        units = {self.options.unit or file_unit(path) for path in self.options.surfaces}
+        if units != {None} and len(units) == 1:  # files of several units are shown as they are
+            self.scene.SetUnitLength(METRES[units.pop()])
 
     def _touch(self, surface, shown, name):
         """Adds a surface to the scene, under an actor that `shown` follows: what is shown has its
