@@ -1,8 +1,48 @@
 #include "vtkHapticDevice.h"
 
+#include "haptics/Devices/DeviceRegistry.h"
 #include "haptics/Devices/MonitoredChannel.h"
 
+#include "vtkNew.h"
+#include "vtkSmartPointer.h"
+#include "vtkStringArray.h"
+
 #include <algorithm>
+#include <vector>
+
+namespace
+{
+/// The two parts of NAME:ID.
+std::pair<std::string, std::string> Split(const char* name)
+{
+  const std::string whole = name ? name : "";
+  const std::size_t colon = whole.find(':');
+  return { whole.substr(0, colon), colon < whole.size() ? whole.substr(colon + 1) : "" };
+}
+
+vtkSmartPointer<vtkHapticDevice> Make(const char* name, std::string& problem)
+{
+  const auto [kind, id] = Split(name);
+  std::string known;
+  for (const haptics::DeviceKind& each : haptics::DeviceRegistration::Kinds())
+  {
+    if (each.Name == kind)
+    {
+      auto device = vtkSmartPointer<vtkHapticDevice>::Take(each.New());
+      if (device->SetDeviceId(id.c_str()))
+      {
+        return device;
+      }
+      problem = "'" + id + "' is no id of a device of the kind '" + kind + "' (" + each.Title +
+        "); leave out the colon for the first that is found.";
+      return nullptr;
+    }
+    known += (known.empty() ? "" : ", ") + each.Name;
+  }
+  problem = "'" + kind + "' is no device. There are: " + known + ".";
+  return nullptr;
+}
+}
 
 vtkHapticDevice::vtkHapticDevice() = default;
 
@@ -13,6 +53,74 @@ vtkHapticDevice::~vtkHapticDevice()
     this->Channel->Close();
   }
 }
+
+vtkHapticDevice* vtkHapticDevice::CreateByName(const char* name)
+{
+  std::string problem;
+  const vtkSmartPointer<vtkHapticDevice> device = Make(name, problem);
+  if (device)
+  {
+    device->Register(nullptr);
+  }
+  return device;
+}
+
+std::string vtkHapticDevice::GetNameProblem(const char* name)
+{
+  std::string problem;
+  Make(name, problem);
+  return problem;
+}
+
+void vtkHapticDevice::GetKnownNames(vtkStringArray* names, vtkStringArray* titles)
+{
+  names->Initialize();
+  titles->Initialize();
+  for (const haptics::DeviceKind& each : haptics::DeviceRegistration::Kinds())
+  {
+    names->InsertNextValue(each.Name);
+    titles->InsertNextValue(each.Title);
+  }
+}
+
+void vtkHapticDevice::ListDevices(vtkStringArray* names, vtkStringArray* states)
+{
+  names->Initialize();
+  states->Initialize();
+  for (const haptics::DeviceKind& each : haptics::DeviceRegistration::Kinds())
+  {
+    const auto device = vtkSmartPointer<vtkHapticDevice>::Take(each.New());
+    vtkNew<vtkStringArray> ids;
+    vtkNew<vtkStringArray> found;
+    device->FindDevices(ids, found);
+    for (vtkIdType i = 0; i < ids->GetNumberOfValues(); ++i)
+    {
+      const std::string id = ids->GetValue(i);
+      names->InsertNextValue(id.empty() ? each.Name : each.Name + ":" + id);
+      states->InsertNextValue(found->GetValue(i));
+    }
+  }
+}
+
+bool vtkHapticDevice::SetDeviceId(const char* id)
+{
+  return !id || !*id;
+}
+
+void vtkHapticDevice::FindDevices(vtkStringArray* ids, vtkStringArray* states)
+{
+  ids->InsertNextValue("");
+  states->InsertNextValue("ready; it needs no hardware.");
+}
+
+bool vtkHapticDevice::NeedsPath()
+{
+  return false;
+}
+
+void vtkHapticDevice::FollowPath(vtkPolyData*, double, bool) {}
+
+void vtkHapticDevice::StartInFront() {}
 
 bool vtkHapticDevice::PlaysFile(const char*)
 {

@@ -12,6 +12,9 @@
  * Every method is for the GUI thread (the one that made the object). StateChangedEvent is invoked
  * on it whenever the state changes; a loss that the servo thread meets is noticed by Update().
  *
+ * CreateByName() makes a device by the name that a user gives it, and ListDevices() says what is
+ * plugged in or running.
+ *
  * @sa vtkSimulatedHapticDevice vtkHapticServo
  */
 #ifndef Haptics_vtkHapticDevice_h
@@ -31,7 +34,9 @@ class MonitoredChannel;
 }
 
 class vtkHapticScene;
+class vtkPolyData;
 class vtkRenderWindowInteractor;
+class vtkStringArray;
 
 class VTKHAPTICSDEVICES_EXPORT vtkHapticDevice : public vtkObject
 {
@@ -55,6 +60,47 @@ public:
   {
     StateChangedEvent = vtkCommand::UserEvent + 4100
   };
+
+  ///@{
+  /**
+   * A new device by the name that users give it, NAME or NAME:ID, such as "mouse", "falcon:1" or
+   * "haply:049D"; what an ID is each device says in SetDeviceId(). The caller owns it. Null where
+   * there is no such device; GetNameProblem() then says why and which there are, and is empty for a
+   * name that is one. Names of devices that another library of the project brings, as the mouse is
+   * one of rendering, are known once that library is loaded.
+   */
+  VTK_NEWINSTANCE static vtkHapticDevice* CreateByName(const char* name);
+  static std::string GetNameProblem(const char* name);
+  ///@}
+  /**
+   * What CreateByName() can make: the names, and what a chooser shows for each, sorted by that.
+   * Both arrays are emptied first.
+   */
+  static void GetKnownNames(vtkStringArray* names, vtkStringArray* titles);
+  /**
+   * What is plugged in or running, of all devices that are known: what to give to CreateByName(),
+   * and in a sentence its state, or why there is none and what helps. A device needs no permission
+   * to be listed and none is opened, moved or given force. Takes up to half a second a device.
+   */
+  static void ListDevices(vtkStringArray* names, vtkStringArray* states);
+
+  ///@{
+  /**
+   * Which of several devices of its kind it is. Read by Open(). SetDeviceId() returns false for
+   * what cannot be an id of this kind; an empty one stands for the first that is found. By default
+   * there are none but that.
+   */
+  virtual bool SetDeviceId(const char* id);
+  virtual const char* GetDeviceId() const { return ""; }
+  ///@}
+  /**
+   * Appends the ids of what is plugged in or running of this kind, each with its state in a
+   * sentence; an empty id with what is missing where there is nothing. Default: what needs no
+   * hardware is ready.
+   */
+  virtual void FindDevices(vtkStringArray* ids, vtkStringArray* states);
+  /** Whether it pushes back. Default true; where not, forces are only shown. */
+  virtual bool GivesForce() { return true; }
 
   /**
    * Open the device and make it ready. Returns true when it is ready or already was; else the
@@ -118,6 +164,21 @@ public:
 
   /** Whether it plays this file, by whichever name. Default: no. */
   virtual bool PlaysFile(const char* fileName);
+
+  ///@{
+  /**
+   * A device without a hand of its own, where NeedsPath() is true, goes along the points of a path
+   * [m], device frame, at the times of its point array `Time` [s] or at `speed` [m/s], over and
+   * over where it loops. It closes, as a path is read by Open(). Defaults: no, does nothing.
+   */
+  virtual bool NeedsPath();
+  virtual void FollowPath(vtkPolyData* path, double speed, bool loops);
+  ///@}
+  /**
+   * A device that has no place of its own, as a mouse, starts from the front of what it reaches
+   * when it opens next. Others are where they are. Default: does nothing.
+   */
+  virtual void StartInFront();
 
   ///@{
   /**

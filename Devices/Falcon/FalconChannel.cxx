@@ -17,17 +17,6 @@ constexpr double LongestSilence = 0.2; // [s]
 constexpr double OldestPosition = 0.02; // [s]
 // What the servo writes waits for the next exchange, at most so long or until the last is over.
 constexpr double ExchangePeriod = 0.001; // [s]
-constexpr std::uint64_t NanosecondsInSecond = 1000000000;
-
-timespec DeadlineIn(std::uint64_t timeout) noexcept
-{
-  timespec deadline{};
-  clock_gettime(CLOCK_MONOTONIC, &deadline);
-  const std::uint64_t nanoseconds = static_cast<std::uint64_t>(deadline.tv_nsec) + timeout;
-  deadline.tv_sec += static_cast<std::time_t>(nanoseconds / NanosecondsInSecond);
-  deadline.tv_nsec = static_cast<long>(nanoseconds % NanosecondsInSecond);
-  return deadline;
-}
 }
 
 FalconChannel::FalconChannel(

@@ -1,83 +1,17 @@
 #ifndef Haptics_FalconLink_h
 #define Haptics_FalconLink_h
 
+#include "haptics/Devices/AnswerBell.h"
+#include "haptics/Devices/ExchangeTimes.h"
 #include "haptics/Devices/Falcon/FalconPacket.h"
 #include "haptics/Devices/LatestValue.h"
 
-#include <semaphore.h>
-
 #include <array>
 #include <atomic>
-#include <cerrno>
-#include <cstddef>
 #include <cstdint>
-#include <ctime>
 
 namespace haptics
 {
-/// @brief Wakes one thread that sleeps; ringing never waits.
-class AnswerBell
-{
-public:
-  AnswerBell() { sem_init(&this->Semaphore, 0, 0); }
-  ~AnswerBell() { sem_destroy(&this->Semaphore); }
-  AnswerBell(const AnswerBell&) = delete;
-  AnswerBell& operator=(const AnswerBell&) = delete;
-
-  void Ring() noexcept { sem_post(&this->Semaphore); }
-  /// False where it did not ring until the monotonic clock shows `deadline`. Takes one ring.
-  bool WaitUntil(const timespec& deadline) noexcept
-  {
-    int result = 0;
-    do
-    {
-      result = sem_clockwait(&this->Semaphore, CLOCK_MONOTONIC, &deadline);
-    } while (result != 0 && errno == EINTR);
-    return result == 0;
-  }
-
-private:
-  sem_t Semaphore;
-};
-
-/// @brief How long exchanges took: counts in bins of 20 us, longer ones in the last bin.
-class ExchangeTimes
-{
-public:
-  static constexpr double BinWidth = 20e-6; ///< [s]
-
-  /// One thread.
-  void Add(double duration) noexcept
-  {
-    const double bin = duration / BinWidth;
-    const std::size_t last = this->Bins.size() - 1;
-    std::atomic<std::uint32_t>& count =
-      this->Bins[bin < static_cast<double>(last) ? static_cast<std::size_t>(bin) : last];
-    count.store(count.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
-  }
-  /// The time [s], up to a bin, within which this share of them was over; 0 before the first. Any
-  /// thread.
-  double Within(double share) const noexcept
-  {
-    std::uint64_t total = 0;
-    for (const auto& bin : this->Bins)
-    {
-      total += bin.load(std::memory_order_relaxed);
-    }
-    std::uint64_t passed = 0;
-    std::size_t bins = 0;
-    while (
-      bins < this->Bins.size() && static_cast<double>(passed) < share * static_cast<double>(total))
-    {
-      passed += this->Bins[bins++].load(std::memory_order_relaxed);
-    }
-    return static_cast<double>(bins) * BinWidth;
-  }
-
-private:
-  std::array<std::atomic<std::uint32_t>, 1000> Bins{};
-};
-
 /// What the device told, and what the servo is to know of how it came.
 struct FalconAnswer
 {

@@ -4,8 +4,7 @@
 #include "haptics/Devices/Falcon/FalconBoot.h"
 #include "haptics/Devices/Falcon/FalconExchange.h"
 #include "haptics/Devices/Falcon/FalconUsb.h"
-
-#include <pthread.h>
+#include "haptics/Devices/RealTimeThread.h"
 
 #include <utility>
 #include <vector>
@@ -15,8 +14,7 @@ namespace haptics
 namespace
 {
 constexpr int UploadTries = 3;
-constexpr int HotplugCheck = 20;     // [ms]
-constexpr int RealTimePriority = 40; // of 1 to 99, as for a driver
+constexpr int HotplugCheck = 20; // [ms]
 
 /// Says farewell to a device that was opened and lets go of it, however its session ends.
 class Parting
@@ -54,14 +52,6 @@ private:
   FalconUsb& Usb;
   FalconLink& Link;
 };
-
-/// The packets go out in time then even while the machine is busy.
-bool RequestRealTime()
-{
-  sched_param parameters{};
-  parameters.sched_priority = RealTimePriority;
-  return pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters) == 0;
-}
 
 std::string HomingText(std::uint8_t homed)
 {
@@ -134,7 +124,7 @@ void FalconTransport::Run()
 
 void FalconTransport::RunSessions()
 {
-  const bool realTime = RequestRealTime();
+  const bool realTime = RequestDriverPriority();
   this->ChangeStatus([=](FalconStatus& status) { status.RealTime = realTime; });
   FalconUsb usb(this->Stop, this->Settings.Guardian);
   while (true)

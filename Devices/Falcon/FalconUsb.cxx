@@ -207,6 +207,13 @@ std::vector<libusb_device*> FalconUsb::FindDevices() const
   return devices;
 }
 
+std::size_t FalconUsb::CountDevices() const
+{
+  const std::vector<libusb_device*> devices = this->FindDevices();
+  std::for_each(devices.begin(), devices.end(), libusb_unref_device);
+  return devices.size();
+}
+
 void FalconUsb::Open(int index)
 {
   const std::vector<libusb_device*> devices = this->FindDevices();

@@ -84,6 +84,8 @@ public:
   /// Falcons that were plugged in since the object was made, those found at first included.
   unsigned int GetArrivals() const { return this->Arrivals; }
 
+  /// How many are plugged in now.
+  std::size_t CountDevices() const;
   /// Opens one of them, counted by their place in the machine, and claims it from any kernel
   /// driver.
   void Open(int index);

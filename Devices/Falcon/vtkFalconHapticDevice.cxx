@@ -1,10 +1,13 @@
 #include "vtkFalconHapticDevice.h"
 
+#include "haptics/Devices/DeviceRegistry.h"
 #include "haptics/Devices/Falcon/FalconChannel.h"
 #include "haptics/Devices/Falcon/FalconGuardian.h"
 #include "haptics/Devices/Falcon/FalconTransport.h"
+#include "haptics/Devices/Falcon/FalconUsb.h"
 
 #include "vtkObjectFactory.h"
+#include "vtkStringArray.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,6 +34,9 @@ int StateOf(haptics::FalconPhase phase)
       return vtkHapticDevice::Faulted;
   }
 }
+
+const haptics::DeviceRegistration Registration(
+  "falcon", "Novint Falcon", []() -> vtkHapticDevice* { return vtkFalconHapticDevice::New(); });
 
 vtkTypeInt64 Load(const std::atomic<std::uint64_t>& count)
 {
@@ -201,6 +207,49 @@ void vtkFalconHapticDevice::TellProgress(const haptics::FalconStatus& status)
 const char* vtkFalconHapticDevice::GetStatusMessage() const
 {
   return this->StatusMessage.c_str();
+}
+
+bool vtkFalconHapticDevice::SetDeviceId(const char* id)
+{
+  const std::string digits = id ? id : "";
+  const bool isIndex = digits.size() <= 2 &&
+    digits.find_first_not_of("0123456789") == std::string::npos &&
+    (digits.empty() || std::stoi(digits) <= 15);
+  if (isIndex)
+  {
+    this->DeviceId = digits;
+    this->SetDeviceIndex(digits.empty() ? 0 : std::stoi(digits));
+  }
+  return isIndex;
+}
+
+void vtkFalconHapticDevice::FindDevices(vtkStringArray* ids, vtkStringArray* states)
+{
+  const std::atomic<bool> stop{ false };
+  try
+  {
+    haptics::FalconUsb usb(stop);
+    const int count = static_cast<int>(usb.CountDevices());
+    for (int i = 0; i < std::max(count, 1); ++i)
+    {
+      ids->InsertNextValue(count == 0 ? "" : std::to_string(i));
+      try
+      {
+        usb.Open(i);
+        usb.Close();
+        states->InsertNextValue("plugged in; it is homed by hand once it is opened.");
+      }
+      catch (const haptics::FalconFault& fault)
+      {
+        states->InsertNextValue(fault.what());
+      }
+    }
+  }
+  catch (const haptics::FalconFault& fault)
+  {
+    ids->InsertNextValue("");
+    states->InsertNextValue(fault.what());
+  }
 }
 
 void vtkFalconHapticDevice::SetFirmwareFile(const char* path)

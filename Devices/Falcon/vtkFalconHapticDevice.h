@@ -74,6 +74,11 @@ public:
   void Update() override;
   const char* GetStatusMessage() const override;
 
+  /// An id is a DeviceIndex.
+  bool SetDeviceId(const char* id) override;
+  const char* GetDeviceId() const override { return this->DeviceId.c_str(); }
+  void FindDevices(vtkStringArray* ids, vtkStringArray* states) override;
+
   ///@{
   /// Which of the Falcons plugged in, counted from 0 by bus and port. Default 0, up to 15. Read by
   /// Open().
@@ -143,6 +148,7 @@ private:
   bool ChangeStatusMessage(const std::string& message);
   void TellStatusMessage(bool changed);
 
+  std::string DeviceId;
   int DeviceIndex = 0;
   std::string FirmwareFile;
   bool OpenOnArrival = false;

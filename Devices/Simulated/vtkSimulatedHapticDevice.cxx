@@ -1,5 +1,6 @@
 #include "vtkSimulatedHapticDevice.h"
 
+#include "haptics/Devices/DeviceRegistry.h"
 #include "haptics/Devices/LatestValue.h"
 #include "haptics/Devices/MonitoredChannel.h"
 #include "haptics/Devices/Simulated/SimulatedBody.h"
@@ -88,6 +89,12 @@ private:
 };
 
 vtkStandardNewMacro(vtkSimulatedHapticDevice);
+
+namespace
+{
+const haptics::DeviceRegistration Registration("simulated", "Simulated stroke",
+  []() -> vtkHapticDevice* { return vtkSimulatedHapticDevice::New(); });
+}
 vtkCxxSetObjectMacro(vtkSimulatedHapticDevice, Path, vtkPolyData);
 
 namespace
@@ -388,4 +395,13 @@ void vtkSimulatedHapticDevice::PrintSelf(ostream& os, vtkIndent indent)
      << ", " << this->ManualPosition[2] << ") m\n";
   os << indent << "ManualButtons: " << this->ManualButtons << "\n";
   os << indent << "Duration: " << this->GetDuration() << " s\n";
+}
+
+void vtkSimulatedHapticDevice::FollowPath(vtkPolyData* path, double speed, bool loops)
+{
+  this->Close();
+  this->SetPath(path);
+  this->SetSpeed(speed);
+  this->SetLoop(loops);
+  this->SetMotionToPolyline();
 }

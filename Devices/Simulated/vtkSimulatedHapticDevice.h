@@ -53,6 +53,9 @@ public:
   vtkTypeMacro(vtkSimulatedHapticDevice, vtkHapticDevice);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  bool NeedsPath() override { return true; }
+  void FollowPath(vtkPolyData* path, double speed, bool loops) override;
+
   enum MotionType
   {
     Manual,

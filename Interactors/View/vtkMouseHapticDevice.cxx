@@ -1,5 +1,6 @@
 #include "vtkMouseHapticDevice.h"
 
+#include "haptics/Devices/DeviceRegistry.h"
 #include "haptics/Devices/LatestValue.h"
 #include "haptics/Devices/MonitoredChannel.h"
 #include "vtkCallbackCommand.h"
@@ -15,6 +16,7 @@
 #include "vtkRenderWindow.h"
 #include "vtkRenderWindowInteractor.h"
 #include "vtkRenderer.h"
+#include "vtkStringArray.h"
 #include "vtkTimerLog.h"
 #include "vtkTransform.h"
 
@@ -44,6 +46,9 @@ constexpr double StrayPixels = 12.0;   // more from the cursor than that is astr
 constexpr double AlongBall = 0.3;      // of its radius, at most, in a tick
 constexpr double GivesWayAt = 1.15;    // in depths that were told; a hand gives way to more
 constexpr double StrayTime = 0.05;     // [s] after which a hand that is astray is put down anew
+
+const haptics::DeviceRegistration Registration(
+  "mouse", "Mouse", []() -> vtkHapticDevice* { return vtkMouseHapticDevice::New(); });
 
 enum MouseButton : unsigned int
 {
@@ -261,6 +266,19 @@ void vtkMouseHapticDevice::Close()
   this->IsPressing = false;
   this->WheelDepth = 0.0;
   this->BecomeClosed();
+}
+
+void vtkMouseHapticDevice::FindDevices(vtkStringArray* ids, vtkStringArray* states)
+{
+  ids->InsertNextValue("");
+  states->InsertNextValue("ready, in a window; it moves the hand and cannot push back.");
+}
+
+void vtkMouseHapticDevice::StartInFront()
+{
+  const double* reach = this->WorkspaceBounds;
+  this->Close();
+  this->SetTarget(0.5 * (reach[0] + reach[1]), 0.5 * (reach[2] + reach[3]), reach[5]);
 }
 
 void vtkMouseHapticDevice::SetInteractor(vtkRenderWindowInteractor* interactor)

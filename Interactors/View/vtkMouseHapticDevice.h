@@ -66,6 +66,9 @@ public:
 
   bool Open() override;
   void Close() override;
+  void FindDevices(vtkStringArray* ids, vtkStringArray* states) override;
+  bool GivesForce() override { return false; }
+  void StartInFront() override;
   bool UsesView() override { return true; }
   bool HasView() override;
   void ConnectView(vtkRenderWindowInteractor* interactor, vtkHapticScene* scene) override;

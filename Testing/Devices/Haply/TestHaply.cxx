@@ -1,0 +1,450 @@
+// The driver of the Inverse3 against a service that speaks its protocol on loopback.
+#include "DriverBench.h"
+#include "FakeHaplyService.h"
+#include "haptics/Devices/DeviceChannel.h"
+#include "haptics/Devices/Haply/HaplyMessage.h"
+#include "vtkHaplyHapticDevice.h"
+#include "vtkNew.h"
+#include "vtkStringArray.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+using haptics::HaplyMessage;
+
+bool Says(const std::string& text, const std::string& part)
+{
+  return text.find(part) != std::string::npos;
+}
+
+class Haply : public testing::Test
+{
+protected:
+  void Use(FakeHaplyService& service)
+  {
+    service.Start();
+    this->Device->SetPort(service.GetPort());
+  }
+  /// The fault that opening ends with.
+  std::string FaultOf(FakeHaplyService& service)
+  {
+    this->Use(service);
+    EXPECT_FALSE(WaitUntilOpen(this->Device));
+    return this->Device->GetErrorMessage();
+  }
+  /// Pushes with 1 N up until the service has got it.
+  void Push(FakeHaplyService& service)
+  {
+    this->Use(service);
+    ASSERT_TRUE(WaitUntilOpen(this->Device)) << this->Device->GetErrorMessage();
+    this->Channel = this->Device->GetChannel();
+    ASSERT_TRUE(WaitFor(
+      [&]
+      {
+        this->Exchange();
+        return service.GetForce()[2] > 0.9;
+      }));
+  }
+  bool Exchange()
+  {
+    haptics::DeviceSample sample;
+    this->Channel->WaitForSample(4000000);
+    this->Time += 0.001;
+    const bool isThere = this->Channel->Read(this->Time, sample);
+    this->Channel->Write({ 0.0, isThere ? 1.0 : 0.0, 0.0 });
+    return isThere;
+  }
+  /// Goes on as a servo until the device is lost; why.
+  std::string LossOf()
+  {
+    EXPECT_TRUE(WaitFor([this] { return !this->Exchange(); }));
+    EXPECT_TRUE(WaitForFault(this->Device));
+    return this->Device->GetErrorMessage();
+  }
+
+  vtkNew<vtkHaplyHapticDevice> Device;
+  std::shared_ptr<haptics::DeviceChannel> Channel;
+  double Time = 0.0;
+};
+
+TEST(HaplyMessages, AForceIsSpelledAsEachVersionWantsIt)
+{
+  std::string text;
+  HaplyMessage::WriteForce("049D", { 1.0, 2.0, -0.5 }, "XYZ", true, nullptr, text);
+  EXPECT_EQ(text,
+    R"({"inverse3":[{"device_id":"049D","commands":{"set_cursor_force":{"vector":{"x":1,"y":0.5,"z":2}}}}]})");
+  HaplyMessage::WriteForce("049D", {}, "XYZ", false, nullptr, text);
+  EXPECT_TRUE(Says(text, R"("values":{"x":0,)")) << text;
+}
+
+TEST(HaplyMessages, APermutationAndItsWayBackGiveTheSame)
+{
+  const Vec place{ 0.1, 0.2, 0.3 };
+  for (const char* permutation : { "XYZ", "YZX", "ZXY", "-YXZ", "XZ-Y", "-X-YZ" })
+  {
+    ASSERT_TRUE(HaplyMessage::IsPermutation(permutation)) << permutation;
+    const Vec back =
+      HaplyMessage::ToService(HaplyMessage::ToDevice(place, permutation), permutation);
+    EXPECT_EQ(back, place) << permutation;
+  }
+  for (const char* permutation : { "", "XY", "XXZ", "XZY", "XYZX", "abc", "--XYZ", "XYZ-" })
+  {
+    EXPECT_FALSE(HaplyMessage::IsPermutation(permutation)) << permutation;
+  }
+  // Up is z there and y here; away from the user is y there and -z here.
+  EXPECT_EQ(HaplyMessage::ToDevice({ 0.0, 0.0, 1.0 }, "XYZ"), (Vec{ 0.0, 1.0, -0.0 }));
+  EXPECT_EQ(HaplyMessage::ToDevice({ 0.0, 1.0, 0.0 }, "XYZ"), (Vec{ 0.0, 0.0, -1.0 }));
+}
+
+TEST(HaplyMessages, WhatIsNoStateIsRefusedAndHarmsNothing)
+{
+  haptics::HaplyState state;
+  for (const char* text :
+    { "", "{", "[]", "null", "3", R"({"inverse3":3})", R"({"verse_grip":[]})" })
+  {
+    EXPECT_FALSE(HaplyMessage::Read(text, state)) << text;
+  }
+  for (const char* text :
+    { R"({"inverse3":[3,null,[],{"device_id":5}],"verse_grip":3})",
+      R"({"inverse3":[{"device_id":"a","state":[],"status":"x","config":[1]}],"verse_grip":[0]})",
+      R"({"inverse3":[{"device_id":"a","state":{"cursor_position":{"x":"1","y":[],"z":{}}}}]})" })
+  {
+    EXPECT_TRUE(HaplyMessage::Read(text, state)) << text;
+    EXPECT_TRUE(state.Devices.empty() || !state.Devices[0].HasPosition);
+  }
+  EXPECT_FALSE(HaplyMessage::Read(std::string(100000, '['), state));
+}
+
+TEST_F(Haply, BothWaysToNameAForceReachTheDevice)
+{
+  for (const char* version : { "3.5.0.0", "3.1.1.0" })
+  {
+    FakeHaplyService service(version);
+    this->Push(service);
+    EXPECT_TRUE(service.HasProfile);
+    this->Device->Close();
+    EXPECT_TRUE(WaitFor([&service] { return service.GetForce() == Vec{}; }));
+  }
+}
+
+TEST_F(Haply, ButtonsAndOrientationOfTheGripAreReported)
+{
+  FakeHaplyService service;
+  service.Buttons = 5;
+  this->Push(service);
+  EXPECT_TRUE(WaitFor(
+    [this]
+    {
+      this->Exchange();
+      return this->Device->GetButtons() == 5;
+    }));
+  double q[4];
+  this->Device->GetOrientation(q);
+  EXPECT_NEAR(q[0], 0.7071, 1e-3);
+  EXPECT_NEAR(q[2], 0.7071, 1e-3) << "up is y here";
+  EXPECT_STREQ(this->Device->GetModelName(), "Inverse3 049D");
+}
+
+TEST_F(Haply, ABasisThatTheUserHasSetIsTakenIntoAccount)
+{
+  FakeHaplyService service("3.1.0.0");
+  service.With(
+    [](auto& devices)
+    {
+      devices[0].Permutation = "YZX";
+      devices[0].Position = { 0.01, 0.02, 0.03 }; // along the service's own y, z, x
+    });
+  this->Use(service);
+  ASSERT_TRUE(WaitUntilOpen(this->Device));
+  this->Channel = this->Device->GetChannel();
+  EXPECT_TRUE(WaitFor(
+    [this]
+    {
+      this->Exchange();
+      double p[3];
+      this->Device->GetPosition(p);
+      return std::abs(p[0] - 0.03) + std::abs(p[1] - 0.02) + std::abs(p[2] + 0.01) < 1e-9;
+    }));
+  EXPECT_TRUE(WaitFor(
+    [&]
+    {
+      this->Exchange(); // up, which is z, reported second
+      return service.GetForce()[1] > 0.9;
+    }));
+}
+
+TEST_F(Haply, OneOfSeveralIsChosenByItsId)
+{
+  FakeHaplyService service;
+  service.With(
+    [](auto& devices)
+    {
+      devices.push_back(devices[0]);
+      devices[1].Id = "04BA";
+    });
+  this->Use(service);
+  this->Device->SetDeviceId("04BA");
+  ASSERT_TRUE(WaitUntilOpen(this->Device));
+  this->Channel = this->Device->GetChannel();
+  EXPECT_TRUE(WaitFor(
+    [&]
+    {
+      this->Exchange();
+      return service.GetForce(1)[2] > 0.9;
+    }));
+  EXPECT_EQ(service.GetForce(0), Vec{});
+}
+
+TEST_F(Haply, NoServiceIsSaid)
+{
+  FakeHaplyService service;
+  this->Device->SetPort(service.GetPort());
+  service.Stop();
+  EXPECT_FALSE(WaitUntilOpen(this->Device));
+  EXPECT_TRUE(Says(this->Device->GetErrorMessage(), "does not answer"))
+    << this->Device->GetErrorMessage();
+  EXPECT_TRUE(Says(this->Device->GetErrorMessage(), "systemctl start"));
+}
+
+TEST_F(Haply, NoDeviceIsSaid)
+{
+  FakeHaplyService service;
+  service.With([](auto& devices) { devices.clear(); });
+  EXPECT_TRUE(Says(this->FaultOf(service), "finds no Inverse3"));
+}
+
+TEST_F(Haply, AnUnknownIdIsSaidWithThoseThatThereAre)
+{
+  FakeHaplyService service;
+  this->Device->SetDeviceId("FFFF");
+  EXPECT_TRUE(Says(this->FaultOf(service), "no Inverse3 'FFFF', but: 049D"));
+}
+
+TEST_F(Haply, VersionsThatItDoesNotKnowAreSaid)
+{
+  for (const auto& [version, words] :
+    { std::pair{ "3.0.7.0", "too old" }, { "", "does not say its version" },
+      { "4.0.0.0", "does not know" }, { "x", "does not say its version" } })
+  {
+    FakeHaplyService service(version);
+    EXPECT_TRUE(Says(this->FaultOf(service), words)) << this->Device->GetErrorMessage();
+    EXPECT_EQ(service.Forces, 0);
+  }
+}
+
+TEST_F(Haply, ADamagedInventoryIsSaid)
+{
+  FakeHaplyService service;
+  service.Greeting = "{\"inverse3\":";
+  EXPECT_TRUE(Says(this->FaultOf(service), "no inventory"));
+}
+
+TEST_F(Haply, AServiceThatReportsNothingIsSaid)
+{
+  FakeHaplyService service;
+  service.IsMute = true;
+  EXPECT_TRUE(Says(this->FaultOf(service), "reports nothing"));
+}
+
+TEST_F(Haply, AMirroringBasisIsSaid)
+{
+  FakeHaplyService service;
+  service.With([](auto& devices) { devices[0].Permutation = "XZY"; });
+  EXPECT_TRUE(Says(this->FaultOf(service), "Set its basis to XYZ"));
+}
+
+TEST_F(Haply, ItWaitsForPowerAndCalibrationAndSaysSo)
+{
+  FakeHaplyService service;
+  service.With(
+    [](auto& devices)
+    {
+      devices[0].IsPowered = false;
+      devices[0].IsCalibrated = false;
+    });
+  this->Use(service);
+  this->Device->Open();
+  const auto says = [this](const char* words)
+  {
+    return WaitFor(
+      [&]
+      {
+        this->Device->Update();
+        return Says(this->Device->GetStatusMessage(), words);
+      });
+  };
+  EXPECT_TRUE(says("has no power"));
+  EXPECT_EQ(this->Device->GetState(), vtkHapticDevice::Opening);
+  service.With([](auto& devices) { devices[0].IsPowered = true; });
+  EXPECT_TRUE(says("is not calibrated"));
+  EXPECT_EQ(this->Device->GetState(), vtkHapticDevice::Homing);
+  EXPECT_EQ(service.GetForce(), Vec{});
+  service.With([](auto& devices) { devices[0].IsCalibrated = true; });
+  EXPECT_TRUE(WaitUntilOpen(this->Device));
+}
+
+TEST_F(Haply, ASecondClientIsToldThatItIsInUse)
+{
+  FakeHaplyService service;
+  this->Push(service);
+  vtkNew<vtkHaplyHapticDevice> second;
+  second->SetPort(service.GetPort());
+  EXPECT_FALSE(WaitUntilOpen(second));
+  EXPECT_TRUE(Says(second->GetErrorMessage(), "in use by another program"));
+  EXPECT_TRUE(this->Exchange()) << "the first goes on";
+}
+
+TEST_F(Haply, ALostStateIsReplacedByZeroAndItGoesOn)
+{
+  FakeHaplyService service;
+  this->Push(service);
+  const vtkTypeInt64 before = this->Device->GetNumberOfReleases();
+  service.Swallowed = 1;
+  EXPECT_TRUE(WaitFor(
+    [&]
+    {
+      EXPECT_TRUE(this->Exchange());
+      return this->Device->GetNumberOfReleases() > before;
+    }));
+  EXPECT_TRUE(WaitFor(
+    [&]
+    {
+      EXPECT_TRUE(this->Exchange());
+      return service.Swallowed == 0 && service.GetForce()[2] > 0.9;
+    }));
+}
+
+TEST_F(Haply, ADamagedStateGivesZeroAndManyEndIt)
+{
+  FakeHaplyService service;
+  this->Push(service);
+  const vtkTypeInt64 before = this->Device->GetNumberOfReleases();
+  service.Damaged = 1;
+  EXPECT_TRUE(WaitFor(
+    [&]
+    {
+      EXPECT_TRUE(this->Exchange());
+      return this->Device->GetNumberOfReleases() > before && service.GetForce()[2] > 0.9;
+    }));
+  service.Damaged = 1000000;
+  EXPECT_TRUE(Says(this->LossOf(), "in a row that are no states"));
+  EXPECT_EQ(service.GetForce(), Vec{});
+}
+
+TEST_F(Haply, AServiceThatFallsSilentIsGivenUp)
+{
+  FakeHaplyService service;
+  this->Push(service);
+  service.IsMute = true;
+  EXPECT_TRUE(Says(this->LossOf(), "not answered for 0.2 s"));
+  EXPECT_EQ(service.GetForce(), Vec{}) << "it still listened";
+}
+
+TEST_F(Haply, ADeviceThatIsUnpluggedOrLosesPowerIsGivenUp)
+{
+  FakeHaplyService unplugged;
+  this->Push(unplugged);
+  unplugged.With([](auto& devices) { devices[0].Id = "04BA"; });
+  EXPECT_TRUE(Says(this->LossOf(), "was unplugged"));
+
+  FakeHaplyService dark;
+  this->Time = 0.0;
+  this->Device->Close();
+  this->Push(dark);
+  dark.With([](auto& devices) { devices[0].IsPowered = false; });
+  EXPECT_TRUE(Says(this->LossOf(), "has no power"));
+  EXPECT_EQ(dark.GetForce(), Vec{});
+}
+
+TEST_F(Haply, APositionThatCannotBeEndsIt)
+{
+  FakeHaplyService missing;
+  this->Push(missing);
+  missing.With([](auto& devices) { devices[0].HasPosition = false; });
+  EXPECT_TRUE(Says(this->LossOf(), "no position"));
+  EXPECT_EQ(missing.GetForce(), Vec{});
+
+  FakeHaplyService far;
+  this->Time = 0.0;
+  this->Device->Close();
+  this->Push(far);
+  far.With([](auto& devices) { devices[0].Position[1] = 1e300; });
+  EXPECT_TRUE(Says(this->LossOf(), "cannot be"));
+  EXPECT_EQ(far.GetForce(), Vec{});
+}
+
+TEST_F(Haply, AServiceThatEndsIsSaidAndOneThatComesBackIsTakenAgain)
+{
+  auto service = std::make_unique<FakeHaplyService>();
+  this->Device->ReconnectOn();
+  this->Push(*service);
+  service->Stop();
+  EXPECT_TRUE(WaitFor([this] { return !this->Exchange(); }));
+  EXPECT_TRUE(WaitForFault(this->Device));
+  service = std::make_unique<FakeHaplyService>();
+  service->Start();
+  // Another port: what the user sets is read by Open(); so this tries what a restart is.
+  this->Device->Close();
+  this->Device->SetPort(service->GetPort());
+  this->Device->Open();
+  EXPECT_TRUE(WaitUntilOpen(this->Device));
+  service->With([](auto& devices) { devices[0].IsPowered = false; });
+  EXPECT_TRUE(WaitFor(
+    [this]
+    {
+      this->Device->Update();
+      return !this->Device->IsOpen();
+    }));
+  service->With([](auto& devices) { devices[0].IsPowered = true; });
+  EXPECT_TRUE(WaitFor(
+    [this]
+    {
+      this->Device->Update();
+      return this->Device->IsOpen();
+    }))
+    << "by itself";
+}
+
+TEST_F(Haply, WhatTheServiceHasIsListed)
+{
+  FakeHaplyService service;
+  service.With(
+    [](auto& devices)
+    {
+      devices.push_back(devices[0]);
+      devices[1].Id = "04BA";
+      devices[1].IsCalibrated = false;
+    });
+  this->Use(service);
+  vtkNew<vtkStringArray> ids;
+  vtkNew<vtkStringArray> states;
+  this->Device->FindDevices(ids, states);
+  ASSERT_EQ(ids->GetNumberOfValues(), 2);
+  EXPECT_EQ(ids->GetValue(0), "049D");
+  EXPECT_TRUE(Says(states->GetValue(0), "ready"));
+  EXPECT_TRUE(Says(states->GetValue(1), "not calibrated"));
+  EXPECT_EQ(service.Forces, 0);
+}
+
+/// What the exchange takes here, in process: printed, not asserted but for its being in time.
+TEST_F(Haply, ExchangesAThousandTimesASecond)
+{
+  FakeHaplyService service;
+  this->Push(service);
+  const auto start = std::chrono::steady_clock::now();
+  const vtkTypeInt64 before = this->Device->GetNumberOfExchanges();
+  while (std::chrono::steady_clock::now() - start < std::chrono::seconds(2))
+  {
+    ASSERT_TRUE(this->Exchange());
+  }
+  const double seconds =
+    std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const auto exchanges = static_cast<double>(this->Device->GetNumberOfExchanges() - before);
+  std::printf("%.0f exchanges a second; p50 %.0f us, p99 %.0f us, p99.9 %.0f us; %lld releases\n",
+    exchanges / seconds, 1e6 * this->Device->GetExchangeTime(0.5),
+    1e6 * this->Device->GetExchangeTime(0.99), 1e6 * this->Device->GetExchangeTime(0.999),
+    static_cast<long long>(this->Device->GetNumberOfReleases()));
+  EXPECT_GT(exchanges, 100.0);
+}
+}

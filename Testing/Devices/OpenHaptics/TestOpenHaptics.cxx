@@ -1,0 +1,275 @@
+// The driver of 3D Systems' devices against a stub of libHD.so with the same symbols.
+#include "DriverBench.h"
+#include "StubHd.h"
+#include "haptics/Devices/DeviceChannel.h"
+#include "vtkNew.h"
+#include "vtkOpenHapticsDevice.h"
+#include "vtkStringArray.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <new>
+
+#include <dlfcn.h>
+#include <sys/mman.h>
+
+namespace
+{
+/// Has the stub use this state, in this process and its children.
+void UseState(StubHdState* state)
+{
+  void* const library = dlopen(HAPTICS_STUB_HD, RTLD_NOW | RTLD_LOCAL);
+  reinterpret_cast<void (*)(StubHdState*)>(dlsym(library, "StubHdUse"))(state);
+}
+
+class OpenHapticsBench : public DriverBench
+{
+public:
+  OpenHapticsBench()
+    : Memory(mmap(
+        nullptr, sizeof(StubHdState), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0))
+    , State(new (this->Memory) StubHdState)
+  {
+    UseState(this->State);
+  }
+  ~OpenHapticsBench() override { munmap(this->Memory, sizeof(StubHdState)); }
+
+  vtkSmartPointer<vtkDriverHapticDevice> MakeDevice() override
+  {
+    auto device = vtkSmartPointer<vtkOpenHapticsDevice>::New();
+    device->SetLibraryFile(HAPTICS_STUB_HD);
+    return device;
+  }
+  void MoveTo(const Vec& position) override
+  {
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      this->State->Position[i] = 1000.0 * position[i];
+    }
+  }
+  Vec GetForce() const override
+  {
+    return { this->State->Force[0], this->State->Force[1], this->State->Force[2] };
+  }
+  void SetDelay(int milliseconds) override { this->State->Delay = milliseconds; }
+
+private:
+  void* const Memory;
+  StubHdState* const State;
+};
+
+bool Says(const std::string& text, const std::string& part)
+{
+  return text.find(part) != std::string::npos;
+}
+
+class OpenHaptics : public testing::Test
+{
+protected:
+  OpenHaptics()
+  {
+    UseState(&this->Stub);
+    this->Device->SetLibraryFile(HAPTICS_STUB_HD);
+  }
+  ~OpenHaptics() override { this->Device->Close(); }
+
+  bool Exchange()
+  {
+    haptics::DeviceSample sample;
+    this->Channel->WaitForSample(4000000);
+    this->Time += 0.001;
+    const bool isThere = this->Channel->Read(this->Time, sample);
+    this->Channel->Write({ 0.0, isThere ? 1.0 : 0.0, 0.0 });
+    return isThere;
+  }
+  void Push()
+  {
+    ASSERT_TRUE(WaitUntilOpen(this->Device)) << this->Device->GetErrorMessage();
+    this->Channel = this->Device->GetChannel();
+    this->Time = 0.0;
+    ASSERT_TRUE(WaitFor(
+      [this]
+      {
+        this->Exchange();
+        return this->Stub.Force[1] > 0.9;
+      }));
+  }
+  std::string LossOf()
+  {
+    EXPECT_TRUE(WaitFor([this] { return !this->Exchange(); }));
+    EXPECT_TRUE(WaitForFault(this->Device));
+    return this->Device->GetErrorMessage();
+  }
+
+  StubHdState Stub;
+  vtkNew<vtkOpenHapticsDevice> Device; // ends before Stub
+  std::shared_ptr<haptics::DeviceChannel> Channel;
+  double Time = 0.0;
+};
+
+TEST_F(OpenHaptics, LimitsAreThoseThatTheDeviceReports)
+{
+  this->Device->SetForceLimit(50.0);
+  ASSERT_TRUE(WaitUntilOpen(this->Device));
+  EXPECT_DOUBLE_EQ(this->Device->GetMaximumForce(), 3.3);
+  EXPECT_DOUBLE_EQ(this->Device->GetMaximumStiffness(), 500.0);
+  EXPECT_DOUBLE_EQ(this->Device->GetWorkspaceBounds()[3], 0.205);
+  EXPECT_STREQ(this->Device->GetModelName(), "Touch 00042");
+  this->Device->Close();
+  this->Device->SetForceLimit(0.5);
+  ASSERT_TRUE(WaitUntilOpen(this->Device));
+  EXPECT_DOUBLE_EQ(this->Device->GetMaximumForce(), 0.5);
+}
+
+TEST_F(OpenHaptics, ADeviceThatReportsNoLimitsGetsThoseOfATouch)
+{
+  this->Stub.KnowsLimits = false;
+  this->Device->SetForceLimit(50.0);
+  ASSERT_TRUE(WaitUntilOpen(this->Device)) << this->Device->GetErrorMessage();
+  EXPECT_DOUBLE_EQ(this->Device->GetMaximumForce(), 3.3);
+  EXPECT_DOUBLE_EQ(this->Device->GetWorkspaceBounds()[1], 0.08);
+}
+
+TEST_F(OpenHaptics, TheDeviceIsAskedForByItsName)
+{
+  this->Device->SetDeviceId("Left");
+  this->Stub.Buttons = 2;
+  this->Push();
+  EXPECT_STREQ(this->Stub.Name, "Left");
+  EXPECT_TRUE(WaitFor(
+    [this]
+    {
+      this->Exchange();
+      return this->Device->GetButtons() == 2;
+    }));
+}
+
+TEST_F(OpenHaptics, AMissingLibraryIsSaidWithWhatToInstall)
+{
+  this->Device->SetLibraryFile("libNoSuchHD.so");
+  EXPECT_FALSE(WaitUntilOpen(this->Device));
+  EXPECT_TRUE(Says(this->Device->GetErrorMessage(), "cannot be loaded"));
+  EXPECT_TRUE(Says(this->Device->GetErrorMessage(), "Install 3D Systems' OpenHaptics"));
+}
+
+TEST_F(OpenHaptics, ALibraryWithoutAFunctionIsSaid)
+{
+  this->Device->SetLibraryFile(HAPTICS_STUB_HD_OLD);
+  EXPECT_FALSE(WaitUntilOpen(this->Device));
+  EXPECT_TRUE(Says(this->Device->GetErrorMessage(), "no function hdStopScheduler"));
+}
+
+TEST_F(OpenHaptics, WhatKeepsItFromOpeningIsSaid)
+{
+  for (const auto& [code, words] :
+    { std::pair{ 0x0300u, "Check its cables" }, { 0x0302u, "GTDD_HOME" },
+      { 0x0301u, "in use by another program" }, { 0x0600u, "no valid licence" },
+      { 0x0304u, "scheduler does not run" }, { 0x0102u, "stub error" } })
+  {
+    this->Stub.InitError = code;
+    EXPECT_FALSE(WaitUntilOpen(this->Device));
+    EXPECT_TRUE(Says(this->Device->GetErrorMessage(), words)) << this->Device->GetErrorMessage();
+    EXPECT_FALSE(this->Stub.IsForceEnabled);
+  }
+}
+
+TEST_F(OpenHaptics, FaultsOfTheMotorsEndItWithoutForce)
+{
+  for (const auto& [code, words] :
+    { std::pair{ 0x0200u, "motors are warm" }, { 0x0201u, "more force" },
+      { 0x0203u, "faster than" }, { 0x0204u, "amplifiers" }, { 0x0302u, "cannot be reached" } })
+  {
+    this->Push();
+    this->Stub.FrameError = code;
+    EXPECT_TRUE(Says(this->LossOf(), words)) << this->Device->GetErrorMessage();
+    EXPECT_EQ(this->Stub.Force[1], 0.0);
+    EXPECT_FALSE(this->Stub.IsOpen);
+  }
+}
+
+TEST_F(OpenHaptics, ASchedulerThatStopsCallingIsSaid)
+{
+  this->Push();
+  this->Stub.IsStalled = true;
+  EXPECT_TRUE(Says(this->LossOf(), "has not called for 0.2 s"));
+}
+
+TEST_F(OpenHaptics, APositionThatIsNoNumberEndsItWithoutForce)
+{
+  this->Push();
+  this->Stub.Position[0] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(Says(this->LossOf(), "cannot be"));
+  EXPECT_EQ(this->Stub.Force[1], 0.0);
+}
+
+TEST_F(OpenHaptics, ItWaitsForTheInkwellAndSaysSo)
+{
+  this->Stub.Calibration = 0x5002;
+  this->Device->Open();
+  EXPECT_TRUE(WaitFor(
+    [this]
+    {
+      this->Device->Update();
+      return Says(this->Device->GetStatusMessage(), "inkwell");
+    }));
+  EXPECT_EQ(this->Device->GetState(), vtkHapticDevice::Homing);
+  this->Stub.Calibration = 0x5001; // the stylus is in it
+  EXPECT_TRUE(WaitUntilOpen(this->Device));
+  EXPECT_EQ(this->Stub.UpdatedWith, 4u);
+}
+
+TEST_F(OpenHaptics, EncodersAreResetOnlyWhenAsked)
+{
+  this->Stub.Style = 1;
+  this->Stub.Calibration = 0x5001;
+  this->Device->Open();
+  EXPECT_TRUE(WaitFor(
+    [this]
+    {
+      this->Device->Update();
+      return Says(this->Device->GetStatusMessage(), "reset position");
+    }));
+  EXPECT_EQ(this->Stub.UpdatedWith, 0u);
+  this->Device->Close();
+  this->Device->ResetEncodersOn();
+  EXPECT_TRUE(WaitUntilOpen(this->Device));
+  EXPECT_EQ(this->Stub.UpdatedWith, 1u);
+}
+
+TEST_F(OpenHaptics, ASecondObjectIsToldThatThereIsOneDeviceAProgram)
+{
+  this->Push();
+  vtkNew<vtkOpenHapticsDevice> second;
+  second->SetLibraryFile(HAPTICS_STUB_HD);
+  EXPECT_FALSE(WaitUntilOpen(second));
+  EXPECT_TRUE(Says(second->GetErrorMessage(), "Another device object"));
+  EXPECT_TRUE(this->Exchange());
+}
+
+TEST_F(OpenHaptics, WhatWasSetUpIsListed)
+{
+  const std::string home = std::string(testing::TempDir()) + "/gtdd";
+  std::filesystem::create_directories(home + "/config");
+  std::ofstream(home + "/config/Left Device.config") << "\n";
+  setenv("GTDD_HOME", home.c_str(), 1);
+  vtkNew<vtkStringArray> ids;
+  vtkNew<vtkStringArray> states;
+  this->Device->FindDevices(ids, states);
+  ASSERT_EQ(ids->GetNumberOfValues(), 1);
+  EXPECT_EQ(ids->GetValue(0), "Left Device");
+  std::filesystem::remove_all(home);
+  ids->Initialize();
+  this->Device->FindDevices(ids, states);
+  EXPECT_TRUE(Says(states->GetValue(1), "no device was set up"));
+  unsetenv("GTDD_HOME");
+}
+}
+
+std::unique_ptr<DriverBench> MakeOpenHapticsBench()
+{
+  return std::make_unique<OpenHapticsBench>();
+}
