@@ -62,6 +62,7 @@ from .errors import HapticsError, HapticsWarning
 globals().update(CLASSES)
 
 from .device import HapticDevice, share
+from .devices import create_device, known_devices, list_devices
 from .inline import picture_of
 from .meshes import polydata
 from .plotting import enable
@@ -75,7 +76,10 @@ __all__ = [
     "HapticsWarning",
     "SharedHand",
     "Trace",
+    "create_device",
     "enable",
+    "known_devices",
+    "list_devices",
     "picture_of",
     "polydata",
     "share",

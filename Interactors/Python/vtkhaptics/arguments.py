@@ -3,6 +3,7 @@
 import argparse
 import math
 
+from .devices import list_devices, remembered_device
 from .surfaces import FORMATS
 from .units import METRES
 
@@ -37,6 +38,15 @@ exit status:
 """
 
 
+class ListDevices(argparse.Action):
+    """Prints the devices and ends the program."""
+
+    def __call__(self, parser, _namespace, _values, _option=None):
+        for name, state in list_devices():
+            print(f"{name:<16}  {state}")
+        parser.exit()
+
+
 def parse(arguments):
     """The options of a command line; exits with 2 where they are wrong."""
     parser = argparse.ArgumentParser(
@@ -60,9 +70,22 @@ def parse(arguments):
     )
     parser.add_argument(
         "--device",
-        default="mouse",
-        metavar="NAME",
-        help="mouse (default), simulated, falcon, or a recording: a .vtp as --trace writes it",
+        metavar="NAME[:ID]",
+        help="what the hand holds: mouse, simulated, falcon, haply, openhaptics, forcedimension, "
+        "spacemouse, or a recording: a .vtp as --trace writes it (default: the device of the last "
+        "time, the mouse at first). Drivers were tested without hardware: see Devices/README.md",
+    )
+    parser.add_argument(
+        "--list-devices",
+        nargs=0,
+        action=ListDevices,
+        help="print what is plugged in or running, each with its state, and end",
+    )
+    parser.add_argument(
+        "--force-limit",
+        type=float,
+        metavar="N",
+        help="no force is larger [N], 0 to 50; 2 for a device that is new to you (its default)",
     )
     parser.add_argument(
         "--stiffness",
@@ -139,7 +162,12 @@ def parse(arguments):
         parser.error(f"--friction {options.friction:g} is out of range; give 0 to 10")
     if options.contour is not None and not math.isfinite(options.contour):
         parser.error(f"--contour {options.contour:g} is no value; give a number")
-    if options.firmware and options.device != "falcon":
+    options.is_remembered = options.device is None and not options.offscreen
+    if options.device is None:
+        options.device = "mouse" if options.offscreen else remembered_device()
+    if options.force_limit is not None and not 0.0 <= options.force_limit <= 50.0:
+        parser.error(f"--force-limit {options.force_limit:g} is out of range; give 0 to 50 N")
+    if options.firmware and options.device.partition(":")[0] != "falcon":
         parser.error("--firmware is for --device falcon")
     if not 2.0 <= options.seconds <= 600.0:
         parser.error(f"--seconds {options.seconds:g} is out of range; give 2 to 600")

@@ -33,6 +33,7 @@ OUTPUTS = {
     "vtkRecordedHapticDevice": {"GetTick": (None, 3, 3)},
     "vtkMouseHapticDevice": {"GetTarget": (3,)},
     "vtkSharedHapticDevice": {"Exchange": (3,)},
+    "vtkDriverHapticDevice": {"GetOrientation": (4,)},
     "vtkHapticServo": {
         name: (3,)
         for name in (
@@ -259,6 +260,6 @@ _native = {
 }
 # Abstract ones stay as they are, so that isinstance() says what it should.
 CLASSES = {
-    name: class_ if name in ("vtkHapticDevice",) else extend(class_)
+    name: class_ if name in ("vtkHapticDevice", "vtkDriverHapticDevice") else extend(class_)
     for name, class_ in _native.items()
 }

@@ -7,6 +7,7 @@ from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
+from .devices import known_devices
 from .surfaces import run_reader
 
 
@@ -16,7 +17,8 @@ class RecordingError(Exception):
 
 def read_recording(path):
     """The path of the hand in a trace, world frame, with its array Time [s]. Raises RecordingError."""
-    what = f"{path}: neither a device (mouse, simulated, falcon) nor a recording"
+    known = ", ".join(name for name, _ in known_devices())
+    what = f"{path}: neither a device ({known}) nor a recording"
     if not os.path.isfile(path):
         raise RecordingError(f"{what}: there is no such file.")
     if not path.lower().endswith(".vtp"):

@@ -21,17 +21,15 @@ from vtkmodules.vtkRenderingCore import (
     vtkRenderWindowInteractor,
 )
 
-import vtkhaptics
 from . import (
     vtkHapticProperties,
     vtkHapticScene,
     vtkInteractorStyleHaptic,
-    vtkMouseHapticDevice,
-    vtkSimulatedHapticDevice,
 )
 from .arguments import parse
 from .coloring import color_by, other_arrays, scalar_bar
 from .detail import DetailSwitch
+from .devices import create_device, known_devices, remember_device
 from .display import DisplayError, ensure_display
 from .errors import HapticsError
 from .interrupt import EXIT_INTERRUPTED, Interrupts
@@ -53,6 +51,7 @@ from .units import METRES, file_unit
 EXIT_DONE, EXIT_FAILED, EXIT_INPUT, EXIT_DISPLAY = 0, 1, 2, 3
 SET_SIDE = {"auto": "SetSideToAutomatic", "front": "SetSideToFront", "both": "SetSideToBoth"}
 COLORS = ((0.74, 0.80, 0.86), (0.86, 0.78, 0.66), (0.70, 0.82, 0.72), (0.84, 0.72, 0.78))
+STROKE_SPEED = 0.05  # [m/s], of a path without times
 BUILD_FRAME = 0.05  # [s] between two looks at how far the surfaces are
 
 
@@ -250,30 +249,46 @@ class Viewer:
     def connect(self):
         """Gives the scene its device. Raises ViewerError, StrokeError."""
         name = self.options.device
-        camera = self.renderer.GetActiveCamera()
-        if name == "mouse":
-            self.device = vtkMouseHapticDevice()
-            self.device.SetInteractor(self.interactor)
-            self.device.SetScene(self.scene)
-        elif name == "falcon":
-            if not hasattr(vtkhaptics, "vtkFalconHapticDevice"):
-                raise ViewerError("this build has no driver for the Falcon. Build it with libusb.")
-            self.device = vtkhaptics.vtkFalconHapticDevice()
-            if self.options.firmware:
-                self.device.SetFirmwareFile(self.options.firmware)
-        else:
-            self.device = vtkSimulatedHapticDevice()
-        self.scene.SetDevice(self.device)
-        if name == "simulated":
-            plan = plan_stroke(self.surfaces[0], self.options.seconds)
-            self._follow(plan.at_depth(0.011)[0])
-            self.device.LoopOn()
-        elif name in ("mouse", "falcon"):
-            self._wait_for_device()
-            if not self.scene.FitWorkspace(camera):
-                raise ViewerError(self.scene.GetErrorMessage())
-        else:
+        kind = name.partition(":")[0]
+        if not any(kind == known for known, _ in known_devices()):
+            self._connect(create_device("simulated"))
             self._follow(read_recording(name))
+            return
+        self._connect(create_device(name))  # raises HapticsError
+        if self.device.NeedsPath():
+            plan = plan_stroke(self.surfaces[0], self.options.seconds)
+            self._follow(plan.at_depth(0.011)[0], loops=True)
+            return
+        try:
+            self._wait_for_device()
+        except (HapticsError, ViewerError) as error:
+            if not self.options.is_remembered or name == "mouse":
+                raise
+            why = getattr(error, "text", "") or error
+            print(f"{name}, the device of the last time: {why} The mouse is the hand.", flush=True)
+            self._connect(create_device("mouse"))
+            self._wait_for_device()
+        else:
+            if not self.options.offscreen:
+                remember_device(name)
+            if not self.device.GivesForce() and not self.device.UsesView():
+                print(f"{name} moves the hand and cannot push back; the force is shown.", flush=True)
+        if not self.scene.FitWorkspace(self.renderer.GetActiveCamera()):
+            raise ViewerError(self.scene.GetErrorMessage())
+
+    def _connect(self, device):
+        """Takes a device, with what of the options is for it."""
+        self.device = device
+        if device.UsesView():
+            device.SetInteractor(self.interactor)
+            device.SetScene(self.scene)
+        if self.options.firmware and hasattr(device, "SetFirmwareFile"):
+            device.SetFirmwareFile(self.options.firmware)
+        if self.options.force_limit is not None:
+            if hasattr(device, "SetForceLimit"):
+                device.SetForceLimit(self.options.force_limit)
+            self.scene.GetServo().SetMaximumForce(self.options.force_limit)
+        self.scene.SetDevice(device)
 
     def _wait_for_device(self):
         """Opens the device and says what that waits for: a Falcon has to be homed by hand."""
@@ -295,11 +310,11 @@ class Viewer:
             self.device.Update()
         overlay.SetStatus("")
 
-    def _follow(self, path):
+    def _follow(self, path, loops=False):
         if not self.scene.FitWorkspace(path.GetBounds(), self.renderer.GetActiveCamera()):
             raise ViewerError(self.scene.GetErrorMessage())
-        self.device.SetPath(in_device_frame(path, self.scene.GetWorkspaceTransform()))
-        self.device.SetMotionToPolyline()
+        path = in_device_frame(path, self.scene.GetWorkspaceTransform())
+        self.device.FollowPath(path, STROKE_SPEED, loops)
 
     def run(self):
         """Touches until the window is closed, or off screen for a while in virtual time."""
