@@ -86,7 +86,7 @@ vtkSMProxy* MakeTraceSource(vtkPolyData* trace)
   if (shown)
   {
     vtkSMPropertyHelper(shown, "LineWidth").Set(LineWidth);
-    if (trace->GetPointData()->HasArray("ForceMagnitude"))
+    if (trace->GetPointData()->HasArray("Force"))
     {
       vtkSMPVRepresentationProxy::SetScalarColoring(shown, "ForceMagnitude", vtkDataObject::POINT);
       vtkSMPVRepresentationProxy::RescaleTransferFunctionToDataRange(shown);

@@ -102,14 +102,7 @@ pqHapticsManager::pqHapticsManager(QObject* parent)
   new pqHapticsBrush(this);
   this->Resting.setSingleShot(true);
   this->Resting.setInterval(RestTime);
-  this->connect(&this->Resting, &QTimer::timeout, this,
-    [this]
-    {
-      if (this->View)
-      {
-        this->View->render();
-      }
-    });
+  this->connect(&this->Resting, &QTimer::timeout, this, &pqHapticsManager::redraw);
   this->Timer.setObjectName("HapticsTimer");
   this->Timer.setInterval(1000 / MaximumRate + 1);
   this->connect(&this->Timer, &QTimer::timeout, this, &pqHapticsManager::poll);
@@ -519,6 +512,14 @@ void pqHapticsManager::command(const char* property)
   {
     this->Scene->InvokeCommand(property);
     this->poll();
+  }
+}
+
+void pqHapticsManager::redraw()
+{
+  if (this->View)
+  {
+    this->View->render();
   }
 }
 

@@ -97,6 +97,8 @@ public Q_SLOTS:
   void command(const char* property);
   /** Looks at the scene now. */
   void poll();
+  /** Draws the view that shows the hand, for what is drawn otherwise than before. */
+  void redraw();
   /** Tells the user what cannot be done and what to do instead, in a box that waits for nobody. */
   void complain(const QString& title, const QString& message);
 

@@ -7,6 +7,7 @@
 #include "pqHapticsManager.h"
 #include "pqHapticsRecorder.h"
 #include "vtkCommand.h"
+#include "vtkGodObjectFilter.h"
 #include "vtkHapticLandmarks.h"
 #include "vtkHapticScene.h"
 #include "vtkHapticServo.h"
@@ -35,6 +36,26 @@ QString number(double value, int digits)
 {
   return QLocale::c().toString(value, 'f', digits);
 }
+
+/// A label of always the same height: what lies below it stays under the cursor.
+void fixLines(QLabel* label, int lines)
+{
+  label->setFixedHeight(lines * label->fontMetrics().lineSpacing() + 2);
+  label->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+}
+
+/// The components of an array with as many digits as fit beside each other.
+QString shortened(const QString& value)
+{
+  QStringList parts = value.split(", ");
+  for (QString& part : parts)
+  {
+    bool isNumber = false;
+    const double component = QLocale::c().toDouble(part, &isNumber);
+    part = isNumber && parts.size() > 1 ? QString::number(component, 'g', 4) : part;
+  }
+  return parts.join(", ");
+}
 }
 
 pqHapticsPanel::pqHapticsPanel(QWidget* parent, Qt::WindowFlags flags)
@@ -61,6 +82,14 @@ pqHapticsPanel::pqHapticsPanel(QWidget* parent, Qt::WindowFlags flags)
   values->horizontalHeader()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
   values->verticalHeader()->setDefaultSectionSize(values->fontMetrics().height() + 4);
 
+  fixLines(this->Form->state, 2);
+  fixLines(this->Form->safeStiffness, 2);
+  fixLines(this->Form->servo, 2);
+  fixLines(this->Form->contact, 2);
+  QSizePolicy keepsPlace = this->Form->building->sizePolicy();
+  keepsPlace.setRetainSizeWhenHidden(true);
+  this->Form->building->setSizePolicy(keepsPlace);
+
   this->connectSettings();
   this->connectCommands();
   this->connect(this->Manager, &pqHapticsManager::sceneChanged, this, &pqHapticsPanel::followScene);
@@ -82,6 +111,20 @@ void pqHapticsPanel::connectSettings()
     [this](double value) { this->Manager->set("Haptic Stiffness", "Stiffness", value); });
   this->connect(form.maximumForce, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
     [this](double value) { this->Manager->set("Largest Haptic Force", "MaximumForce", value); });
+  this->connect(form.side, QOverload<int>::of(&QComboBox::activated), this,
+    [this](int side) { this->Manager->set("Haptic Side", "Side", side); });
+  const auto show = [this](QAbstractButton* box, const char* property)
+  {
+    this->connect(box, &QAbstractButton::clicked, this,
+      [this, property](bool on)
+      {
+        this->Manager->set("Picture of the Hand", property, on);
+        this->Manager->redraw();
+      });
+  };
+  show(form.showForce, "ShowForce");
+  show(form.showReadout, "ShowReadout");
+  show(form.showTrail, "ShowTrail");
   this->connect(form.clutch, &QAbstractButton::clicked, this,
     [this](bool on) { this->Manager->set("Haptic Clutch", "Clutched", on); });
   this->connect(
@@ -186,6 +229,23 @@ void pqHapticsPanel::showSettings()
     form.stiffness->setValue(vtkSMPropertyHelper(scene, "Stiffness").GetAsDouble());
     form.maximumForce->setValue(vtkSMPropertyHelper(scene, "MaximumForce").GetAsDouble());
     form.clutch->setChecked(vtkSMPropertyHelper(scene, "Clutched").GetAsInt() != 0);
+    form.side->setCurrentIndex(vtkSMPropertyHelper(scene, "Side").GetAsInt());
+    form.showForce->setChecked(vtkSMPropertyHelper(scene, "ShowForce").GetAsInt() != 0);
+    form.showReadout->setChecked(vtkSMPropertyHelper(scene, "ShowReadout").GetAsInt() != 0);
+    form.showTrail->setChecked(vtkSMPropertyHelper(scene, "ShowTrail").GetAsInt() != 0);
+  }
+  else
+  {
+    // The defaults of the scene that Touch will make.
+    const QSignalBlocker stiffness(form.stiffness);
+    const QSignalBlocker force(form.maximumForce);
+    form.stiffness->setValue(500.0);
+    form.maximumForce->setValue(3.3);
+    form.side->setCurrentIndex(vtkGodObjectFilter::AUTOMATIC_SIDE);
+    form.showForce->setChecked(true);
+    form.showReadout->setChecked(false);
+    form.showTrail->setChecked(false);
+    form.clutch->setChecked(false);
   }
   this->showRecorder();
 }
@@ -258,19 +318,21 @@ void pqHapticsPanel::showText()
     return;
   }
   const QString message = scene->GetMessage();
-  form.state->setText(message.isEmpty() ? QString(scene->GetState()) : message);
+  const QString state = message.isEmpty() ? QString(scene->GetState()) : message;
+  form.state->setText(state);
+  form.state->setToolTip(state);
 
   vtkHapticServo* servo = scene->GetScene()->GetServo();
   const double limit = servo->GetStiffnessLimit();
-  form.safeStiffness->setText(limit < VTK_DOUBLE_MAX
-      ? "in force " + number(scene->GetEffectiveStiffness(), 0) + " N/m; safe up to " +
-        number(limit, 0) + " N/m"
-      : "in force " + number(scene->GetEffectiveStiffness(), 0) + " N/m");
+  const bool isFelt = scene->GetTouching() && servo->GetCurrentStiffness() > 0.0;
+  const double stiffness = isFelt ? servo->GetCurrentStiffness() : scene->GetEffectiveStiffness();
+  form.safeStiffness->setText((isFelt ? "in effect here " : "in effect ") + number(stiffness, 0) +
+    " N/m" + (limit < VTK_DOUBLE_MAX ? "; safe up to " + number(limit, 0) + " N/m" : QString()));
   form.servo->setText(servo->GetNumberOfTicks() == 0 ? QString("not run yet")
                                                      : number(servo->GetMeasuredRate(), 0) +
-        " Hz, longest gap " + number(1000.0 * servo->GetMaximumPeriod(), 1) + " ms, " +
+        " Hz, gaps to " + number(1000.0 * servo->GetMaximumPeriod(), 1) + " ms, " +
         QString::number(servo->GetNumberOfMissedTicks()) + " of " +
-        QString::number(servo->GetNumberOfTicks()) + " ticks missed");
+        QString::number(servo->GetNumberOfTicks()) + " missed");
 }
 
 void pqHapticsPanel::showContact()
@@ -279,9 +341,11 @@ void pqHapticsPanel::showContact()
   vtkPVHapticScene* scene = this->Manager->clientScene();
   const bool touching = scene && scene->GetTouching();
   const int landmarks = scene ? scene->GetNumberOfLandmarks() : 0;
-  form.contact->setText(touching ? "cell " + QString::number(scene->GetTouchedCell()) + ", " +
-        QString::number(scene->GetPenetration(), 'g', 3) + " world units deep"
-                                 : QString("free space"));
+  const QString name = touching ? scene->GetTouchedName() : "";
+  form.contact->setText(touching
+      ? (name.isEmpty() ? name : name + ", ") + "cell " + QString::number(scene->GetTouchedCell()) +
+        ", " + QString::number(scene->GetPenetration(), 'g', 3) + " world units deep"
+      : QString("free space"));
   vtkStringArray* values = touching ? scene->GetProbedValues() : nullptr;
   const int rows = values ? static_cast<int>(values->GetNumberOfValues() / 2) : 0;
   form.values->setRowCount(rows);
@@ -293,8 +357,9 @@ void pqHapticsPanel::showContact()
       {
         form.values->setItem(row, column, new QTableWidgetItem);
       }
-      form.values->item(row, column)
-        ->setText(QString::fromStdString(values->GetValue(2 * row + column)));
+      const QString text = QString::fromStdString(values->GetValue(2 * row + column));
+      form.values->item(row, column)->setText(column == 1 ? shortened(text) : text);
+      form.values->item(row, column)->setToolTip(text);
     }
   }
   form.landmarksGroup->setTitle(

@@ -1,9 +1,12 @@
 #include "vtkHapticRecordSource.h"
 
+#include "vtkDoubleArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkMath.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkXMLPolyDataReader.h"
@@ -34,8 +37,21 @@ std::string vtkHapticRecordSource::MakeContents(vtkPolyData* record)
   {
     return {};
   }
+  vtkNew<vtkPolyData> written;
+  written->ShallowCopy(record);
+  if (vtkDataArray* force = written->GetPointData()->GetArray("Force"))
+  {
+    vtkNew<vtkDoubleArray> magnitude;
+    magnitude->SetName("ForceMagnitude");
+    magnitude->SetNumberOfTuples(force->GetNumberOfTuples());
+    for (vtkIdType i = 0; i < force->GetNumberOfTuples(); ++i)
+    {
+      magnitude->SetValue(i, vtkMath::Norm(force->GetTuple3(i)));
+    }
+    written->GetPointData()->AddArray(magnitude);
+  }
   vtkNew<vtkXMLPolyDataWriter> writer;
-  writer->SetInputData(record);
+  writer->SetInputData(written);
   writer->SetDataModeToBinary(); // base64: no byte that a property or XML could not hold
   writer->WriteToOutputStringOn();
   writer->Write();

@@ -35,7 +35,10 @@ public:
   const char* GetContents() { return this->Contents.c_str(); }
   ///@}
 
-  /** What SetContents() takes to give this polydata; null gives the empty text. */
+  /**
+   * What SetContents() takes to give this polydata; null gives the empty text. Where it has a point
+   * array Force it has one ForceMagnitude [N] as well, which charts and colours can go by.
+   */
   static std::string MakeContents(vtkPolyData* record);
 
 protected:

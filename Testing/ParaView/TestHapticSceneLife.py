@@ -63,7 +63,9 @@ class TestHapticSceneLife(SceneTest):
     def test_what_is_no_device_is_refused_in_words(self):
         self.touch(self.make("Sphere"))
         for name in ("joystick", "", "/nowhere/recording.hpr"):
-            self.hand.Device = name
+            with self.assertRaisesRegex(haptics.HapticsError, "neither a device"):
+                self.hand.Device = name
+            self.hand.proxy.Device = name  # as a state file does
             with self.assertRaisesRegex(haptics.HapticsError, "neither a device"):
                 self.hand.engage()
             self.assertEqual(self.hand.EngagedInfo, 0)
@@ -76,6 +78,24 @@ class TestHapticSceneLife(SceneTest):
         with self.assertRaisesRegex(haptics.HapticsError, "recording"):
             self.hand.step(1)
         self.assertEqual(self.hand.ForceMagnitude, 0.0)
+
+    def test_wrong_values_are_refused_where_they_are_given(self):
+        for name, value in (("Stiffness", -5.0), ("MaximumForce", -1), ("Stiffness", float("nan"))):
+            before = getattr(self.hand, name)
+            with self.assertRaisesRegex(ValueError, name):
+                setattr(self.hand, name, value)
+            self.assertEqual(getattr(self.hand, name), before)
+        with self.assertRaisesRegex(AttributeError, "no Hardness; it has .*Stiffness"):
+            self.hand.set(Hardness=1)
+        with self.assertRaisesRegex(haptics.HapticsError, "'Sphere1' is no source.*FindSource"):
+            self.hand.touch("Sphere1")
+
+    def test_help_describes_every_property(self):
+        haptics.scene()
+        described = haptics.Scene.__doc__.splitlines()
+        for name in self.hand.proxy.ListProperties():
+            line = next(line for line in described if line.startswith(f"{name}:"))
+            self.assertGreater(len(line.split(":", 1)[1].replace("read only.", "").strip()), 10, line)
 
     def test_a_recording_gives_the_same_forces_again(self):
         self.touch(self.make("Sphere", ThetaResolution=32, PhiResolution=32))

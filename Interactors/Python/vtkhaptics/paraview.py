@@ -12,6 +12,7 @@ attribute of it. Its servo runs on the client, also where the data are on a serv
 """
 
 import glob
+import math
 import os
 import time
 
@@ -61,6 +62,7 @@ class Scene:
     """A haptic scene of ParaView. The proxy's properties are its attributes."""
 
     def __init__(self, proxy):
+        """A haptic scene of ParaView. The proxy's properties are its attributes."""
         object.__setattr__(self, "proxy", proxy)
 
     def __getattr__(self, name):
@@ -80,10 +82,17 @@ class Scene:
         return sorted(set(super().__dir__()) | set(self.proxy.ListProperties()))
 
     def set(self, **properties):
-        """Sets properties, for example set(Stiffness=800, Device="simulated")."""
+        """Sets properties, for example set(Stiffness=800, Device="simulated").
+
+        Raises ValueError for a number that is out of range, HapticsError for what is no device.
+        """
         for name, value in properties.items():
-            if not self.proxy.SMProxy.GetProperty(name):
-                raise AttributeError(f"a haptic scene has no {name}")
+            prop = self.proxy.SMProxy.GetProperty(name)
+            if not prop:
+                raise AttributeError(f"a haptic scene has no {name}; it has {_names(self.proxy)}")
+            if name == "Device":
+                _check_device(value)
+            _check_range(name, prop, value)
             setattr(self.proxy, name, value)
 
     @property
@@ -106,6 +115,11 @@ class Scene:
         source = source or simple.GetActiveSource()
         if not source:
             raise HapticsError("There is no source to touch. Give one, or make one active.")
+        if not hasattr(source, "SMProxy"):
+            raise HapticsError(
+                f"{source!r} is no source of ParaView. Give what a function of paraview.simple has "
+                f"made, or FindSource(NAME); there are {sorted(n for n, _ in simple.GetSources())}."
+            )
         view = view or self.View or simple.GetActiveViewOrCreate("RenderView")
         if not view.SMProxy.IsA("vtkSMRenderViewProxy"):
             raise HapticsError(
@@ -195,6 +209,41 @@ class Scene:
         return _source(self.landmarks(), name)
 
 
+def _names(proxy):
+    return ", ".join(sorted(proxy.ListProperties()))
+
+
+def _check_device(name):
+    if name not in ("mouse", "simulated", "falcon", "none") and not os.path.isfile(name):
+        raise HapticsError(
+            f"'{name}' is neither a device (mouse, simulated, falcon) nor a file with a recording "
+            "or a path."
+        )
+
+
+def _check_range(name, prop, value):
+    domain = prop.FindDomain("vtkSMDoubleRangeDomain") if prop.IsA("vtkSMDoubleVectorProperty") else None
+    for number in value if isinstance(value, (list, tuple)) else [value]:
+        if domain and not math.isfinite(number):
+            raise ValueError(f"{name}: {number} is not finite")
+        if domain and domain.GetMinimumExists(0) and number < domain.GetMinimum(0):
+            raise ValueError(f"{name}: {number} is less than {domain.GetMinimum(0)}")
+        if domain and domain.GetMaximumExists(0) and number > domain.GetMaximum(0):
+            raise ValueError(f"{name}: {number} is more than {domain.GetMaximum(0)}")
+
+
+def _describe(proxy):
+    """What each property of a scene is, for help()."""
+    lines = [Scene.__init__.__doc__ or "A haptic scene of ParaView.", "", "Its properties:", ""]
+    for name in sorted(proxy.ListProperties()):
+        prop = proxy.SMProxy.GetProperty(name)
+        text = prop.GetDocumentation() if prop else None
+        described = " ".join(text.GetDescription().split()) if text and text.GetDescription() else ""
+        kind = "read only. " if prop and prop.GetInformationOnly() else ""
+        lines.append(f"{name}: {kind}{described}")
+    return "\n".join(lines)
+
+
 def _make_touchable(display):
     if not display.SMProxy.GetProperty("Touchable"):
         raise HapticsError(
@@ -223,7 +272,9 @@ def scene():
         proxy = servermanager._getPyProxy(manager.NewProxy("haptics", "HapticScene"))
         proxy.UpdateVTKObjects()
         manager.RegisterProxy("haptics", "HapticScene", proxy.SMProxy)
-    return Scene(servermanager._getPyProxy(proxy))
+    made = Scene(servermanager._getPyProxy(proxy))
+    Scene.__doc__ = _describe(made.proxy)  # help(hand) shows it
+    return made
 
 
 def touch(source=None, view=None, **properties):
