@@ -94,7 +94,8 @@ void vtkHapticProbeFiller::SetContact(vtkHapticProbe* probe, const haptics::Tick
   {
     pose.Translation[i] = probe->Position[i] - turnedLocal[i];
   }
-  probe->Where = { surface, constraint.Triangle, local, pose };
+  probe->Where = { surface, constraint.Triangle, local, pose,
+    { probe->Weights[0], probe->Weights[1], probe->Weights[2] } };
 
   if (!prepared ||
     prepared->GetNumberOfPolys() != static_cast<vtkIdType>(surface->Triangles().size()))

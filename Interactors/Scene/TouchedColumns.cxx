@@ -58,8 +58,8 @@ void TouchedColumns::AddTo(vtkDataSetAttributes* data) const
     if (column.Components > 0)
     {
       vtkNew<vtkDoubleArray> array;
-      array->SetName((data->HasArray(column.Name.c_str()) ? "Surface" + column.Name : column.Name)
-                       .c_str());
+      array->SetName(
+        (data->HasArray(column.Name.c_str()) ? "Surface" + column.Name : column.Name).c_str());
       array->SetNumberOfComponents(column.Components);
       array->SetNumberOfTuples(this->Ticks);
       std::copy(column.Values.begin(), column.Values.end(), array->GetPointer(0));

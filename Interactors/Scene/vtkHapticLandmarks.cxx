@@ -1,13 +1,17 @@
 #include "vtkHapticLandmarks.h"
 
 #include "haptics/Files/OutputFile.h"
+#include "haptics/Filters/LengthUnit.h"
 #include "haptics/Filters/TraceCSV.h"
 #include "haptics/Scene/GeodesicPath.h"
+#include "haptics/Scene/SurfaceSet.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkHapticProbe.h"
 #include "vtkIdTypeArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationStringKey.h"
 #include "vtkIntArray.h"
 #include "vtkMath.h"
 #include "vtkObjectFactory.h"
@@ -21,6 +25,7 @@
 #include <limits>
 #include <locale>
 #include <sstream>
+#include <utility>
 
 vtkStandardNewMacro(vtkHapticLandmarks);
 
@@ -72,6 +77,73 @@ std::string ValueOf(vtkDataSetAttributes* values, const std::string& column)
 }
 }
 
+/// Stays on its triangle by the weights of the corners.
+struct vtkHapticLandmarks::Landmark
+{
+  vtkSmartPointer<vtkHapticProbe> Probe; // as it was dropped
+  std::string Label;
+  vtkHapticProbe::Contact Where; // as it is now
+  haptics::Vec3 Position{};      // world
+  haptics::Vec3 Normal{};        // world, unit, on the side that was touched
+  /// A snapshot with other cells, which is not looked at twice.
+  std::shared_ptr<const haptics::TriangleSurface> Refused;
+
+  /// The triangle's normal there, along the world's axes; of any length.
+  haptics::Vec3 TriangleNormal() const
+  {
+    const haptics::TriangleSurface& surface = *this->Where.Touched;
+    const haptics::Triangle& corners =
+      surface.Triangles()[static_cast<std::size_t>(this->Where.Triangle)];
+    haptics::Vec3 edges[2];
+    for (int i = 0; i < 3; ++i)
+    {
+      const double from = surface.Points()[static_cast<std::size_t>(corners[0])][i];
+      edges[0][i] = surface.Points()[static_cast<std::size_t>(corners[1])][i] - from;
+      edges[1][i] = surface.Points()[static_cast<std::size_t>(corners[2])][i] - from;
+    }
+    haptics::Vec3 normal;
+    vtkMath::Cross(edges[0].data(), edges[1].data(), normal.data());
+    return this->Where.Pose.VectorToWorld(normal);
+  }
+
+  /// Whether it is elsewhere now.
+  bool Follow(
+    const std::shared_ptr<const haptics::TriangleSurface>& surface, const haptics::RigidPose& pose)
+  {
+    if (surface != this->Where.Touched)
+    {
+      // Snapshots that deform share their triangles; one that was scaled has equal ones.
+      if (surface == this->Refused || surface->Triangles() != this->Where.Touched->Triangles())
+      {
+        this->Refused = surface;
+        return false;
+      }
+    }
+    const bool isBehind = vtkMath::Dot(this->TriangleNormal().data(), this->Normal.data()) < 0.0;
+    this->Where.Touched = surface;
+    this->Where.Pose = pose;
+    const haptics::Triangle& corners =
+      surface->Triangles()[static_cast<std::size_t>(this->Where.Triangle)];
+    haptics::Vec3 local{};
+    for (int i = 0; i < 3; ++i)
+    {
+      const auto along = [&](int k) {
+        return this->Where.Weights[k] * surface->Points()[static_cast<std::size_t>(corners[k])][i];
+      };
+      local[i] = surface->Origin()[i] + (along(0) + along(1) + along(2));
+    }
+    this->Where.Position = local;
+    const haptics::Vec3 before = std::exchange(this->Position, pose.PointToWorld(local));
+    haptics::Vec3 normal = this->TriangleNormal();
+    if (vtkMath::Normalize(normal.data()) > 0.0)
+    {
+      vtkMath::MultiplyScalar(normal.data(), isBehind ? -1.0 : 1.0);
+      this->Normal = normal;
+    }
+    return this->Position != before;
+  }
+};
+
 vtkHapticLandmarks::vtkHapticLandmarks() = default;
 vtkHapticLandmarks::~vtkHapticLandmarks() = default;
 
@@ -94,9 +166,36 @@ int vtkHapticLandmarks::Drop(vtkHapticProbe* probe, const char* label)
     return -1;
   }
   ++this->Dropped;
-  this->Landmarks.push_back({ probe, label ? label : std::to_string(this->Dropped) });
+  const double* const position = probe->GetPosition();
+  const double* const normal = probe->GetNormal();
+  this->Landmarks.push_back(
+    { probe, label ? label : std::to_string(this->Dropped), probe->GetContact(),
+      { position[0], position[1], position[2] }, { normal[0], normal[1], normal[2] }, nullptr });
   this->Modified();
   return this->GetNumberOfLandmarks() - 1;
+}
+
+void vtkHapticLandmarks::Follow(const haptics::SurfaceSet& surfaces)
+{
+  bool moved = false;
+  for (Landmark& landmark : this->Landmarks)
+  {
+    const haptics::HapticSurface* const surface = surfaces.Find(landmark.Probe->GetSurface());
+    const auto touched = surface ? surface->Touched() : nullptr;
+    if (touched && landmark.Where.Touched)
+    {
+      moved = landmark.Follow(touched, surface->Pose()) || moved;
+    }
+  }
+  if (moved)
+  {
+    this->Modified();
+  }
+}
+
+void vtkHapticLandmarks::SetUnitLength(double metres)
+{
+  haptics::SetLength(this, "UnitLength", this->UnitLength, metres);
 }
 
 bool vtkHapticLandmarks::Undo()
@@ -149,7 +248,8 @@ void vtkHapticLandmarks::GetPosition(int number, double position[3])
   std::fill_n(position, 3, 0.0);
   if (this->Has(number))
   {
-    this->GetLandmark(number)->GetPosition(position);
+    const haptics::Vec3& now = this->Landmarks[static_cast<std::size_t>(number)].Position;
+    std::copy(now.begin(), now.end(), position);
   }
 }
 
@@ -175,7 +275,13 @@ double vtkHapticLandmarks::GetStraightDistance(int first, int second)
     return vtkMath::Nan();
   }
   return std::sqrt(vtkMath::Distance2BetweenPoints(
-    this->GetLandmark(first)->GetPosition(), this->GetLandmark(second)->GetPosition()));
+    this->Landmarks[static_cast<std::size_t>(first)].Position.data(),
+    this->Landmarks[static_cast<std::size_t>(second)].Position.data()));
+}
+
+double vtkHapticLandmarks::DistanceToPrevious(int number)
+{
+  return number > 0 ? this->GetStraightDistance(number - 1, number) : vtkMath::Nan();
 }
 
 double vtkHapticLandmarks::GetGeodesicDistance(int first, int second, vtkPolyData* path)
@@ -186,17 +292,17 @@ double vtkHapticLandmarks::GetGeodesicDistance(int first, int second, vtkPolyDat
   }
   const auto end = [this](int number)
   {
-    vtkHapticProbe* probe = this->GetLandmark(number);
+    const vtkHapticProbe::Contact& where = this->Landmarks[static_cast<std::size_t>(number)].Where;
     haptics::SurfacePoint point;
-    point.Triangle = probe->GetContact().Triangle;
-    point.Position = probe->GetContact().Position;
+    point.Triangle = where.Triangle;
+    point.Position = where.Position;
     return point;
   };
-  const auto& surface = this->GetLandmark(second)->GetContact().Touched;
-  if (this->GetLandmark(first)->GetContact().Touched != surface)
+  const auto& surface = this->Landmarks[static_cast<std::size_t>(second)].Where.Touched;
+  if (this->Landmarks[static_cast<std::size_t>(first)].Where.Touched != surface)
   {
     vtkErrorMacro("Landmarks " << first << " and " << second
-                               << " lie on two surfaces, or on one that was moved or changed in "
+                               << " lie on two surfaces, or on one whose cells changed in "
                                   "between; there is no way along it. Drop them anew.");
     return vtkMath::Nan();
   }
@@ -208,7 +314,7 @@ double vtkHapticLandmarks::GetGeodesicDistance(int first, int second, vtkPolyDat
     points->SetDataTypeToDouble();
     vtkNew<vtkCellArray> lines;
     lines->InsertNextCell(static_cast<int>(found.Points.size()));
-    const haptics::RigidPose& pose = this->GetLandmark(second)->GetContact().Pose;
+    const haptics::RigidPose& pose = this->Landmarks[static_cast<std::size_t>(second)].Where.Pose;
     for (const haptics::Vec3& point : found.Points)
     {
       lines->InsertCellPoint(points->InsertNextPoint(pose.PointToWorld(point).data()));
@@ -240,10 +346,21 @@ vtkPolyData* vtkHapticLandmarks::GetOutput()
   auto* weights = AddArray<vtkDoubleArray>(this->Output, "Weights", 3);
   auto* normals = AddArray<vtkDoubleArray>(this->Output, "Normal", 3);
   auto* forces = AddArray<vtkDoubleArray>(this->Output, "Force", 3);
+  auto* distances = AddArray<vtkDoubleArray>(this->Output, "DistanceToPrevious", 1);
+  forces->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), "N");
+  const std::string unit = haptics::LengthUnitName(this->UnitLength);
+  for (vtkDataArray* const lengths : { points->GetData(), static_cast<vtkDataArray*>(distances) })
+  {
+    if (!unit.empty())
+    {
+      lengths->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), unit.c_str());
+    }
+  }
   for (const Landmark& landmark : this->Landmarks)
   {
     vtkHapticProbe* probe = landmark.Probe;
-    const vtkIdType id = points->InsertNextPoint(probe->GetPosition());
+    const vtkIdType id = points->InsertNextPoint(landmark.Position.data());
+    distances->InsertNextValue(this->DistanceToPrevious(static_cast<int>(id)));
     verts->InsertNextCell(1, &id);
     labels->InsertNextValue(landmark.Label);
     surfaces->InsertNextValue(probe->GetSurface());
@@ -252,7 +369,7 @@ vtkPolyData* vtkHapticLandmarks::GetOutput()
       probe->GetPointId(2) };
     ids->InsertNextTypedTuple(corners);
     weights->InsertNextTypedTuple(probe->GetWeights());
-    normals->InsertNextTypedTuple(probe->GetNormal());
+    normals->InsertNextTypedTuple(landmark.Normal.data());
     forces->InsertNextTypedTuple(probe->GetForce());
   }
   this->Output->SetPoints(points);
@@ -280,7 +397,8 @@ bool vtkHapticLandmarks::WriteCSV(const char* file)
       }
     }
   }
-  stream << "label,x,y,z,surface,cell,point_0,point_1,point_2,weight_0,weight_1,weight_2";
+  stream << "label,x,y,z,surface,cell,point_0,point_1,point_2,weight_0,weight_1,weight_2,"
+            "distance_to_previous";
   for (const std::string& column : columns)
   {
     stream << "," << haptics::CSVField(column);
@@ -290,7 +408,7 @@ bool vtkHapticLandmarks::WriteCSV(const char* file)
   for (const Landmark& landmark : this->Landmarks)
   {
     vtkHapticProbe* probe = landmark.Probe;
-    const double* p = probe->GetPosition();
+    const haptics::Vec3& p = landmark.Position;
     stream << haptics::CSVField(landmark.Label) << "," << p[0] << "," << p[1] << "," << p[2] << ","
            << probe->GetSurface() << "," << probe->GetCell();
     for (int i = 0; i < 3; ++i)
@@ -301,6 +419,8 @@ bool vtkHapticLandmarks::WriteCSV(const char* file)
     {
       stream << "," << probe->GetWeight(i);
     }
+    const auto number = static_cast<int>(&landmark - this->Landmarks.data());
+    stream << "," << this->DistanceToPrevious(number);
     for (const std::string& column : columns)
     {
       const std::string value = ValueOf(probe->GetPointValues(), column);
@@ -326,7 +446,7 @@ void vtkHapticLandmarks::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Landmarks: " << this->Landmarks.size() << "\n";
   for (const Landmark& landmark : this->Landmarks)
   {
-    const double* p = landmark.Probe->GetPosition();
+    const haptics::Vec3& p = landmark.Position;
     os << indent.GetNextIndent() << landmark.Label << ": (" << p[0] << ", " << p[1] << ", " << p[2]
        << "), surface " << landmark.Probe->GetSurface() << ", cell " << landmark.Probe->GetCell()
        << "\n";

@@ -3,7 +3,8 @@
  * @brief   Points marked by touch, each exactly on a surface: a list, its export, their distances.
  *
  * A vtkHapticScene drops one where the hand touches, on a button of the device or on request. They
- * stay where they were dropped when the surface moves, changes or goes away.
+ * stay on the surface while that moves, is scaled or deforms, as of the scene's last Update().
+ * Where its cells change, or it is hidden or goes away, they stay where they were last.
  *
  * Positions and lengths are in the world frame [world unit]. GUI thread.
  *
@@ -19,6 +20,11 @@
 
 #include <string>
 #include <vector>
+
+namespace haptics
+{
+class SurfaceSet;
+}
 
 class vtkHapticProbe;
 class vtkPolyData;
@@ -42,9 +48,9 @@ public:
   void RemoveAll();
 
   int GetNumberOfLandmarks();
-  /** What was touched; null where there is no such number. Not to be changed. */
+  /** What was touched, then; null where there is no such number. Not to be changed. */
   vtkHapticProbe* GetLandmark(int number);
-  /** Zeros and an error where there is no such number. */
+  /** Where it is now. Zeros and an error where there is no such number. */
   void GetPosition(int number, double position[3]);
   ///@{
   /** The label; empty, or an error, where there is no such number. */
@@ -56,28 +62,42 @@ public:
   double GetStraightDistance(int first, int second);
   /**
    * Between two landmarks along the surface that both were dropped on [world unit], as the surface
-   * was when the second one was dropped: a shortest way over its triangles, exact within those that
+   * is now: a shortest way over its triangles, exact within those that
    * it crosses, and never shorter than the shortest of all. Against known lengths (a prism of thin
    * triangles, a sphere) it was at most 0.4 % longer. Infinite where the surface's parts do not
-   * hang together; NaN and an error where they lie on two surfaces, or the surface was scaled or
-   * changed in between; one that was moved or turned is still the same. Takes about as long as
-   * building the surface did. `path`, where given, becomes the way as a polyline, where the surface
-   * was for the second landmark.
+   * hang together; NaN and an error where they lie on two surfaces, or the surface's cells changed
+   * in between. Takes about as long as building the surface did. `path`, where given, becomes the
+   * way as a polyline.
    */
   double GetGeodesicDistance(int first, int second, vtkPolyData* path = nullptr);
 
   /**
    * The landmarks as vertices with the point arrays Label, Surface, OriginalCellId, PointIds (3),
-   * Weights (3), Normal (3), Force (3). Made anew after each change; never null.
+   * Weights (3), Normal (3), Force (3), and DistanceToPrevious, as the crow flies [world unit], NaN
+   * of the first. Made anew after each change; never null.
    */
   vtkPolyData* GetOutput();
   /**
-   * Writes a table: label, x, y, z, surface, cell, point_0..2, weight_0..2 and a column for each
-   * array value. Names and labels that a spreadsheet would run as a formula (=, +, - or @ first)
-   * get an apostrophe before them. Replaces a file of that name as a whole; false and an error
-   * where it cannot be written, and then the old one stays.
+   * Writes a table: label, x, y, z, surface, cell, point_0..2, weight_0..2, distance_to_previous
+   * and a column for each array value. Names and labels that a spreadsheet would run as a formula
+   * (=, +, - or @ first) get an apostrophe before them. Replaces a file of that name as a whole;
+   * false and an error where it cannot be written, and then the old one stays.
    */
   bool WriteCSV(const char* file);
+
+  ///@{
+  /**
+   * Length of a world unit [m], for the information of the output's arrays: the scene sets its own.
+   * Default 0: not known.
+   */
+  void SetUnitLength(double metres);
+  vtkGetMacro(UnitLength, double);
+  ///@}
+
+#ifndef __VTK_WRAP__
+  /** For the scene, C++ only: takes them to where the surfaces are now. */
+  void Follow(const haptics::SurfaceSet& surfaces);
+#endif
 
 protected:
   vtkHapticLandmarks();
@@ -87,14 +107,12 @@ private:
   vtkHapticLandmarks(const vtkHapticLandmarks&) = delete;
   void operator=(const vtkHapticLandmarks&) = delete;
 
-  struct Landmark
-  {
-    vtkSmartPointer<vtkHapticProbe> Probe;
-    std::string Label;
-  };
+  struct Landmark;
   bool Has(int number);
+  double DistanceToPrevious(int number);
 
   std::vector<Landmark> Landmarks;
+  double UnitLength = 0.0;
   int Dropped = 0; // for labels
   vtkNew<vtkPolyData> Output;
   vtkMTimeType OutputTime = 0;

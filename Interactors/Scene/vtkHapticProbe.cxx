@@ -6,6 +6,8 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 
+#include <algorithm>
+#include <cmath>
 #include <sstream>
 
 vtkStandardNewMacro(vtkHapticProbe);
@@ -13,6 +15,21 @@ vtkStandardNewMacro(vtkHapticProbe);
 namespace
 {
 constexpr int MostLines = 8;
+/// Places this share of a surface's size apart are told apart.
+constexpr double Resolution = 1e-4;
+
+/// How many digits a coordinate takes for that, five at least.
+int DigitsOf(double coordinate, double size)
+{
+  const double step = Resolution * size;
+  if (!(step > 0.0) || !(std::abs(coordinate) > step))
+  {
+    return 5;
+  }
+  const double digits =
+    1.0 + std::floor(std::log10(std::abs(coordinate))) - std::floor(std::log10(step));
+  return static_cast<int>(std::clamp(digits, 5.0, 17.0));
+}
 
 void WriteValues(std::ostream& text, vtkDataSetAttributes* values, int& lines)
 {
@@ -78,9 +95,13 @@ std::string vtkHapticProbe::GetText()
     return {};
   }
   std::ostringstream text;
-  text.precision(5);
-  text << this->GetSurfaceName() << "   cell " << this->Cell << "\n"
-       << this->Position[0] << ", " << this->Position[1] << ", " << this->Position[2];
+  text << this->GetSurfaceName() << "   cell " << this->Cell << "\n";
+  const double size = this->Where.Touched ? 2.0 * this->Where.Touched->Radius() : 0.0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    text.precision(DigitsOf(this->Position[axis], size));
+    text << (axis > 0 ? ", " : "") << this->Position[axis];
+  }
   int lines = 0;
   WriteValues(text, this->PointValues, lines);
   WriteValues(text, this->CellValues, lines);

@@ -76,6 +76,7 @@ public:
     int Triangle = -1;                                       ///< of it
     haptics::Vec3 Position{};                                ///< GetPosition() in that frame
     haptics::RigidPose Pose;                                 ///< from that frame to the world
+    haptics::Vec3 Weights{};                                 ///< of its triangle's corners
   };
   const Contact& GetContact() const
   {

@@ -346,6 +346,7 @@ bool vtkHapticScene::PullSurfaces()
     }
     surfaces.Published(generation);
   }
+  this->Landmarks->Follow(surfaces);
   for (const std::string& error : errors)
   {
     this->Fail(error);
@@ -825,6 +826,7 @@ void vtkHapticScene::SetUnitLength(double metres)
   this->Workspace->SetUnitLength(metres);
   const double unitLength = this->GetUnitLength();
   this->TraceRecorder->SetUnitLength(unitLength);
+  this->Landmarks->SetUnitLength(unitLength);
 }
 
 double vtkHapticScene::GetUnitLength()

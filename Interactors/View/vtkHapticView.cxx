@@ -1,5 +1,6 @@
 #include "vtkHapticView.h"
 
+#include "haptics/Filters/LengthUnit.h"
 #include "haptics/Tick/TickRecord.h"
 #include "vtkCallbackCommand.h"
 #include "vtkGodObjectActor.h"
@@ -11,6 +12,7 @@
 #include "vtkMath.h"
 #include "vtkObjectFactory.h"
 
+#include <sstream>
 #include <vector>
 
 vtkStandardNewMacro(vtkHapticView);
@@ -112,7 +114,30 @@ std::string vtkHapticView::DescribeContact()
     : this->Scene->IsSurfaceOutdated(this->Scene->GetTouchedSurface())
     ? "older than shown: the newest is no good"
     : "";
-  return contact + (contact.empty() || !*state ? "" : "\n") + state;
+  const std::string marks = this->DescribeLandmarks();
+  return contact + (contact.empty() || !*state ? "" : "\n") + state +
+    (marks.empty() || (contact.empty() && !*state) ? "" : "\n") + marks;
+}
+
+/// The last two, and how far apart they are.
+std::string vtkHapticView::DescribeLandmarks()
+{
+  vtkHapticLandmarks* const landmarks = this->Scene->GetLandmarks();
+  const int last = landmarks->GetNumberOfLandmarks() - 1;
+  if (last < 0)
+  {
+    return {};
+  }
+  std::ostringstream text;
+  text.precision(5);
+  text << "landmark " << landmarks->GetLabel(last);
+  if (last > 0)
+  {
+    text << ": " << landmarks->GetStraightDistance(last - 1, last);
+    const std::string unit = haptics::LengthUnitName(this->Scene->GetUnitLength());
+    text << (unit.empty() ? "" : " ") << unit << " from " << landmarks->GetLabel(last - 1);
+  }
+  return text.str();
 }
 
 vtkGodObjectActor* vtkHapticView::GetGodObjectActor()

@@ -58,6 +58,7 @@ private:
   void ShowTrail();
   void Show();
   std::string DescribeContact();
+  std::string DescribeLandmarks();
 
   vtkSmartPointer<vtkHapticScene> Scene;
   vtkNew<vtkCallbackCommand> Callback;

@@ -1,5 +1,7 @@
 """enable() makes a plot touchable, and disable() leaves it as it was."""
 
+from types import SimpleNamespace
+
 import vtkmodules.vtkInteractionStyle  # noqa: F401  (registers the interactors)
 import vtkhaptics
 from vtkmodules.vtkCommonDataModel import vtkPlane
@@ -68,6 +70,34 @@ def test_takes_what_can_be_touched():
     touch = vtkhaptics.enable(plot(hidden, unpickable, assembly, text), overlay=False)
     assert touch.scene.GetNumberOfSurfaces() == 1
     assert touch.scene.GetSurfaceActor(touch.scene.GetSurfaceId(0)) is part
+    touch.disable()
+
+
+def test_names_of_the_plot():
+    named, unnamed, replaced = ball(), ball(), ball()
+    interactor = plot(named, unnamed)
+    renderer = interactor.GetRenderWindow().GetRenderers().GetFirstRenderer()
+    # As PyVista keeps them; one that is given no name has the address of its data for it.
+    renderer.actors = {"skull": named, "PolyData(Addr=0x1)": unnamed}
+    touch = vtkhaptics.enable(SimpleNamespace(iren=SimpleNamespace(interactor=interactor), renderer=renderer))
+    scene = touch.scene
+    names = [scene.GetSurfaceName(scene.GetSurfaceId(i)) for i in range(2)]
+    assert names == ["skull", ""], names
+    renderer.RemoveActor(named)
+    renderer.AddActor(replaced)
+    renderer.actors = {"skull": replaced}
+    interactor.GetRenderWindow().Render()
+    names = [scene.GetSurfaceName(scene.GetSurfaceId(i)) for i in range(2)]
+    assert names == ["", "skull"], names
+    spoilt = vtkhaptics.polydata(([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]))
+    spoilt.GetPoints().SetPoint(1, float("nan"), 0.0, 0.0)
+    replaced.GetMapper().SetInputDataObject(spoilt)
+    try:
+        scene.Update()
+    except vtkhaptics.HapticsError as error:
+        assert "(skull)" in str(error), error
+    else:
+        raise AssertionError("NaN was taken")
     touch.disable()
 
 
@@ -156,6 +186,7 @@ def test_touches_the_outside_of_meshes():
 
 test_touches_and_leaves_no_trace()
 test_takes_what_can_be_touched()
+test_names_of_the_plot()
 test_refuses_what_cannot_be_touched()
 test_follows_what_is_shown()
 test_touches_the_outside_of_meshes()

@@ -2,6 +2,7 @@
 #include "haptics/Tick/TickRecord.h"
 
 #include "vtkActor.h"
+#include "vtkCellArray.h"
 #include "vtkDataArray.h"
 #include "vtkElevationFilter.h"
 #include "vtkGodObjectFilter.h"
@@ -10,6 +11,7 @@
 #include "vtkMath.h"
 #include "vtkMatrix4x4.h"
 #include "vtkPointData.h"
+#include "vtkPoints.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkSphereSource.h"
 #include "vtkTransform.h"
@@ -183,6 +185,113 @@ TEST(MovingActors, TheWayBetweenLandmarksIsThatOfTheSurfaceWhereverItWasTakenMea
   vtkNew<vtkPolyData> way;
   EXPECT_NEAR(hand.Scene->GetLandmarks()->GetGeodesicDistance(0, 1, way), 0.04, 1e-9);
   EXPECT_NEAR(way->GetPoint(0)[2], 0.1, 1e-6) << "shown where the surface was at last";
+}
+
+/// Moved, turned, scaled, mirrored back, deformed: a landmark stays on its point of the material.
+TEST(MovingActors, LandmarksStayOnTheSurface)
+{
+  TableActor hand;
+  hand.MoveTo(-0.001);
+  vtkHapticLandmarks* const marks = hand.Scene->GetLandmarks();
+  ASSERT_EQ(hand.Scene->DropLandmark(), 0); // at (0.01, 0.02)
+  hand.Device->SetPosition(0.05, 0.02, -0.001);
+  hand.Scene->Step(1);
+  ASSERT_EQ(hand.Scene->DropLandmark(), 1);
+  hand.MoveTo(0.05);
+  double dropped[3];
+  double p[3];
+  marks->GetPosition(0, dropped);
+  hand.Scene->Update();
+  marks->GetPosition(0, p);
+  EXPECT_TRUE(std::equal(p, p + 3, dropped)) << "nothing has changed, to the last bit";
+
+  hand.Actor->SetPosition(0.0, 0.0, 0.01);
+  hand.Scene->Update();
+  marks->GetPosition(0, p);
+  EXPECT_NEAR(p[2], 0.01, 1e-9);
+  hand.Actor->RotateZ(90.0);
+  hand.Scene->Update();
+  marks->GetPosition(0, p);
+  EXPECT_NEAR(p[0], -0.02, 1e-9);
+  EXPECT_NEAR(p[1], 0.01, 1e-9);
+  EXPECT_NEAR(marks->GetStraightDistance(0, 1), 0.04, 1e-9);
+  hand.Actor->SetScale(2.0);
+  hand.Scene->Update();
+  marks->GetPosition(0, p);
+  EXPECT_NEAR(p[0], -0.04, 1e-9);
+  EXPECT_NEAR(marks->GetStraightDistance(0, 1), 0.08, 1e-9);
+  EXPECT_NEAR(marks->GetGeodesicDistance(0, 1), 0.08, 1e-9) << "along the surface as it is";
+  EXPECT_NEAR(marks->GetOutput()->GetPoint(0)[0], -0.04, 1e-9);
+  vtkDataArray* const distances =
+    marks->GetOutput()->GetPointData()->GetArray("DistanceToPrevious");
+  EXPECT_TRUE(std::isnan(distances->GetTuple1(0)));
+  EXPECT_NEAR(distances->GetTuple1(1), 0.08, 1e-9);
+  EXPECT_NEAR(
+    marks->GetOutput()->GetPointData()->GetArray("Normal")->GetComponent(0, 2), 1.0, 1e-9);
+
+  hand.Actor->VisibilityOff();
+  hand.Actor->SetPosition(0.0, 0.0, 0.3);
+  hand.Scene->Update();
+  marks->GetPosition(0, p);
+  EXPECT_NEAR(p[2], 0.01, 1e-9) << "what is hidden is nowhere";
+  hand.Actor->VisibilityOn();
+  hand.Scene->Update();
+  marks->GetPosition(0, p);
+  EXPECT_NEAR(p[2], 0.3, 1e-9);
+  hand.Scene->RemoveSurface(hand.Actor);
+  hand.Scene->Update();
+  marks->GetPosition(0, p);
+  EXPECT_NEAR(p[2], 0.3, 1e-9) << "where it was last";
+}
+
+TEST(MovingActors, LandmarksStayOnASurfaceThatDeformsAndWhereItsCellsChange)
+{
+  LedHand hand;
+  auto table = MakeTable(0.0);
+  hand.Scene->AddSurface(table);
+  hand.MoveTo(0.01);
+  hand.MoveTo(-0.001);
+  vtkHapticLandmarks* const marks = hand.Scene->GetLandmarks();
+  ASSERT_EQ(hand.Scene->DropLandmark(), 0); // at (0.01, 0.02)
+  hand.MoveTo(0.05);
+  for (int step = 1; step <= 5; ++step)
+  {
+    for (vtkIdType k = 0; k < 4; ++k) // it tilts: z = 0.1 x
+    {
+      double q[3];
+      table->GetPoint(k, q);
+      table->GetPoints()->SetPoint(k, q[0], q[1], 0.02 * step * q[0]);
+    }
+    table->GetPoints()->Modified();
+    table->Modified();
+    hand.MoveTo(0.05);
+  }
+  hand.Scene->Step(300);
+  double p[3];
+  marks->GetPosition(0, p);
+  EXPECT_NEAR(p[0], 0.01, 1e-7);
+  EXPECT_NEAR(p[1], 0.02, 1e-7);
+  EXPECT_NEAR(p[2], 0.001, 1e-7);
+  const double expected = std::cos(std::atan(0.1));
+  EXPECT_NEAR(
+    marks->GetOutput()->GetPointData()->GetArray("Normal")->GetComponent(0, 2), expected, 1e-6);
+
+  auto higher = MakeTable(0.2);
+  vtkNew<vtkCellArray> half; // other cells
+  const vtkIdType corners[3] = { 0, 1, 3 };
+  half->InsertNextCell(3, corners);
+  table->SetPoints(higher->GetPoints());
+  table->SetPolys(half);
+  hand.MoveTo(0.3);
+  hand.Scene->Step(10);
+  double after[3];
+  marks->GetPosition(0, after);
+  EXPECT_TRUE(std::equal(p, p + 3, after)) << "where it was last";
+  table->SetPolys(vtkSmartPointer<vtkCellArray>::New());
+  table->SetPoints(vtkSmartPointer<vtkPoints>::New());
+  hand.MoveTo(0.3);
+  marks->GetPosition(0, after);
+  EXPECT_TRUE(std::equal(p, p + 3, after));
 }
 
 TEST(MovingActors, RestingOnATableThatMovesIsNoSlide)

@@ -7,6 +7,7 @@
 #include "vtkHapticProbe.h"
 #include "vtkMatrix4x4.h"
 #include "vtkPointData.h"
+#include "vtkPoints.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkSphereSource.h"
 #include "vtkStringArray.h"
@@ -16,6 +17,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -240,6 +242,43 @@ TEST(SceneEvents, AButtonDropsALandmarkThoughTheSurfacesChangeBeforeTheSceneLook
   hand.AwaitTicks();
   hand.Scene->Update();
   EXPECT_EQ(hand.Scene->GetLandmarks()->GetNumberOfLandmarks(), 1);
+}
+
+/// The read-out of places on a surface far from the origin, and near it.
+TEST(HapticProbe, CoordinatesHaveTheDigitsThatTellPlacesOnTheSurfaceApart)
+{
+  for (const double far : { 0.0, 5094171.25 })
+  {
+    LedHand hand;
+    auto table = MakeTable(0.0);
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    for (vtkIdType i = 0; i < 4; ++i)
+    {
+      double p[3];
+      table->GetPoint(i, p);
+      points->InsertNextPoint(p[0] + far, p[1], p[2]);
+    }
+    table->SetPoints(points);
+    hand.Scene->AddSurface(table);
+    vtkNew<vtkMatrix4x4> workspace;
+    workspace->SetElement(0, 3, far);
+    hand.Scene->SetWorkspaceTransform(workspace);
+    std::set<std::string> places;
+    for (int i = 0; i < 10; ++i)
+    {
+      const double x = -0.005 + 0.001 * i; // a two-hundredth of the table
+      hand.Device->SetPosition(x, 0.02, 0.01);
+      hand.Scene->Step(1);
+      hand.Device->SetPosition(x, 0.02, -0.001);
+      hand.Scene->Step(1);
+      const std::string text = hand.Scene->GetProbe()->GetText();
+      const std::string place = text.substr(text.find('\n') + 1);
+      places.insert(place);
+      EXPECT_NEAR(std::stod(place) - far, x, 1e-4) << text;
+    }
+    EXPECT_EQ(places.size(), 10U) << *places.begin();
+  }
 }
 
 TEST(HapticLandmarks, DropListUndoAndExport)

@@ -292,5 +292,7 @@ TEST(SceneTrace, IsWrittenAsATableWithTheUnitOfItsLengths)
   EventCounter errors(hand.Scene, vtkCommand::ErrorEvent);
   EXPECT_FALSE(recorder->WriteCSV((::testing::TempDir() + "none/trace.csv").c_str()));
   EXPECT_EQ(errors.Count, 1);
-  EXPECT_NE(std::string(hand.Scene->GetErrorMessage()).find("folder exists"), std::string::npos);
+  EXPECT_NE(
+    std::string(hand.Scene->GetErrorMessage()).find("Make its folder first"), std::string::npos)
+    << hand.Scene->GetErrorMessage();
 }

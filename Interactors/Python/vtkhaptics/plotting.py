@@ -42,6 +42,12 @@ class Touch:
             self._surfaces[prop] = (id_, stand_in)
         return self._surfaces[prop][0]
 
+    def _name(self, id_, prop):
+        name = _name_of(prop, self._renderer)
+        # Parts of an assembly have ids of their own.
+        if name and prop.IsA("vtkActor") and name != self.scene.GetSurfaceName(id_):
+            self.scene.SetSurfaceName(id_, name)
+
     def follow(self):
         """Takes in what the plot shows now, and only that: each picture calls it."""
         shown = [prop for prop in self._renderer.GetViewProps() if _can_be_touched(prop)]
@@ -52,7 +58,8 @@ class Touch:
         for prop in [prop for prop in self._surfaces if prop not in present]:
             id_, _ = self._surfaces.pop(prop)
             self.scene.RemoveSurface(id_)
-        for prop, (_, stand_in) in self._surfaces.items():
+        for prop, (id_, stand_in) in self._surfaces.items():
+            self._name(id_, prop)  # a plot names an actor after it has taken it in
             if stand_in:
                 stand_in.SetVisibility(prop.GetVisibility())
                 stand_in.SetPickable(prop.GetPickable())
@@ -100,7 +107,8 @@ def enable(plotter, device=None, stiffness=500.0, overlay=True):
 
     `plotter` is a pyvista.Plotter, or a vtkRenderWindowInteractor with a window. The surfaces are
     what its visible, pickable actors and assemblies show, of volume meshes the outside; what comes,
-    goes or is replaced later is followed at each picture. Of several subplots the active one is
+    goes or is replaced later is followed at each picture. Names that the plot gives them are those of
+    messages, read-out and traces. Of several subplots the active one is
     touched. `stiffness` in N/m. Returns a Touch, whose `scene` is the vtkHapticScene. Raises
     TypeError for anything that is no plotter, and ValueError where there is nothing to touch, the
     device does not open, or the plot is touched already.
@@ -148,6 +156,17 @@ def _view_of(plotter):
     if active is not None and renderers.IsItemPresent(active):
         return interactor, active
     return interactor, renderers.GetFirstRenderer()
+
+
+def _name_of(prop, renderer):
+    """What a plot calls an actor: the name of PyVista's ``add_mesh(name=...)``, or VTK's from 9.3
+    on; empty where nobody has given it one."""
+    actors = getattr(renderer, "actors", None) or {}
+    for name, actor in actors.items():
+        # PyVista makes one of the address where it is given none.
+        if actor is prop and "Addr=" not in str(name):
+            return str(name)
+    return prop.GetObjectName() or "" if hasattr(prop, "GetObjectName") else ""
 
 
 def _set_style(plotter, style):

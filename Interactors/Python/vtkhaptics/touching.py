@@ -1,5 +1,6 @@
 """Opens a window with surfaces of a program's own, to touch them."""
 
+import os
 from typing import Any, Optional
 
 import numpy as np
@@ -67,8 +68,8 @@ def touch(
     renderer.SetBackground2(*BACKGROUND[1])
     renderer.GradientBackgroundOn()
     add_lights(renderer)
-    for surface in shown:
-        actor = surface_actor(surface)
+    actors = [surface_actor(surface) for surface in shown]
+    for surface, actor in zip(shown, actors):
         renderer.AddActor(actor)
         name, table = (None, None) if scalars == "none" else color_by(actor, surface, scalars)
         if table and surface is shown[0]:
@@ -87,6 +88,9 @@ def touch(
     interactor.Initialize()
     window.Render()
     hand = enable(interactor, device, stiffness)
+    for given, actor in zip(surfaces, actors):
+        if isinstance(given, (str, os.PathLike)):
+            hand.scene.SetSurfaceName(hand.add(actor), os.path.basename(os.fspath(given)))
     hand.scene.StartRecording()
     interactor.Start()
     hand.scene.StopRecording()
