@@ -20,15 +20,13 @@ public:
   explicit JudgedSoak(const SoakOptions& options);
 
   void Run(const std::string& scene, const std::vector<TouchedSurface>& surfaces);
-  /// Prints the sums. True where there is no crossing, gap, phantom or motion away from the HIP,
-  /// and at most one tick in 10,000 is stuck.
+  /// Prints the sums. True where they are good.
   bool Finish();
 
   static void PrintHead(const char* first, unsigned seed);
   static void Print(const std::string& name, const TrialCount& count);
-  /// No crossing, gap or motion away from the HIP, and not more held by nothing or stuck than there
-  /// was when this was written: 1 in 10,000 contact ticks, and 1 in 1,000 that are pressed again.
-  /// The aim is none and 1 in 10,000; Testing/Benchmarks/README.md says what is left.
+  /// No crossing, gap, phantom or motion away from the HIP, and at most 1 stuck in 10,000 that are
+  /// pressed again (or one in fewer).
   static bool IsGood(const TrialCount& count);
   /// Has the first faults of each kind printed. `name`: of scene and kind of way.
   static void PrintFaults(Trial& trial, std::string name, const unsigned& episode, long most = 3);

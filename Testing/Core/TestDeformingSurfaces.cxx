@@ -104,6 +104,47 @@ TEST(DeformingSurfaces, PushARestingHipWithoutSteps)
   EXPECT_NEAR(largestStep, stiffness * speed * Tick, 1e-6); // and no less: it does move
 }
 
+//  \.
+//    \.      a sharp edge whose faces open and close and that goes to and fro, pressed head-on: a
+//    hand
+//  x  o  x   that comes out in front of it is free in that tick
+//    /
+//  /
+TEST(DeformingSurfaces, HoldNothingInTheOpen)
+{
+  for (const Side side : { Side::Front, Side::Both })
+  {
+    TriangleMesh wedge;
+    const double s = 0.01;
+    wedge.Points = { { 0, 0, -0.03 }, { -0.04, s, -0.03 }, { -0.04, -s, -0.03 }, { 0, 0, 0.03 },
+      { -0.04, s, 0.03 }, { -0.04, -s, 0.03 } };
+    wedge.Triangles = { { 0, 2, 1 }, { 3, 4, 5 }, { 0, 1, 4 }, { 0, 4, 3 }, { 0, 5, 2 },
+      { 0, 3, 5 }, { 1, 2, 5 }, { 1, 5, 4 } };
+    Playing playing(wedge, side);
+    playing.God->Update({ 0.02, 0, 0 });
+    int held = 0;
+    for (int tick = 0; tick < 1000; ++tick)
+    {
+      if (tick % 20 == 0)
+      {
+        const double opening = 1.0 + 0.9 * std::sin(0.013 * tick);
+        const double shift = 0.004 * std::sin(0.031 * tick);
+        playing.Deform(
+          [opening, shift](const Vec3& p) {
+            return Vec3{ p[0] + shift, p[1] * opening, p[2] };
+          },
+          20);
+      }
+      const bool isOut = tick % 7 > 3;
+      const double aside = 1e-4 * std::sin(0.7 * tick);
+      const Contact& contact = playing.Next({ isOut ? 0.01 : -0.02, aside, 1e-3 });
+      held += contact.Status == UpdateStatus::Touching;
+      EXPECT_TRUE(!isOut || contact.Status == UpdateStatus::Free) << "tick " << tick;
+    }
+    EXPECT_GT(held, 400);
+  }
+}
+
 TEST(DeformingSurfaces, NothingPassesAtAnySpeed)
 {
   for (const double step : { 1e-9, 1e-6, 5e-5, 3e-4, 1e-3, 5e-3, 0.1 })

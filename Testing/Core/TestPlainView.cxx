@@ -491,6 +491,36 @@ TEST(PlainView, ASliverAlongAnEdgeHoldsNothing)
   }
 }
 
+//  Where facets meet at a corner that is neither convex nor concave, no three planes are what is
+//  free: a hand at rest is led on along any facet there.
+TEST(PlainView, ACornerThatIsNeitherConvexNorConcaveDoesNotHold)
+{
+  struct Corner
+  {
+    Vec3 Place, Hip;
+  };
+  const Corner corners[] = {
+    { { -0.23512957947147111, -0.19245813001503341, 0.37631278778090148 },
+      { 0.5470066316101501, 0.60982259579211951, -0.30162775256363652 } },
+    { { 0.30395816783366801, 0.34259205835947325, -0.01970075463642785 },
+      { -0.59995773920312151, -0.33566857235345471, 0.3814480417195402 } },
+  };
+  for (const double scale : { 1e-6, 1.0, 1e6 })
+  {
+    const auto surface = MakeSurface(Scaled(Star(3, 1.0, 0.7, 8), scale));
+    for (const Corner& corner : corners)
+    {
+      GodObject god({ surface });
+      god.Place(surface->Origin() + scale * corner.Place);
+      for (int tick = 0; tick < 8; ++tick)
+      {
+        god.Update(surface->Origin() + scale * corner.Hip);
+      }
+      EXPECT_LT(god.Current().Penetration, 0.96 * scale * Length(corner.Place - corner.Hip));
+    }
+  }
+}
+
 //  Four sheets that meet in a point: near it two reach over each other's gap, each under the
 //  other's plane. The hand goes between them.
 TEST(PlainView, SheetsThatReachOverEachOtherDoNotHoldTogether)

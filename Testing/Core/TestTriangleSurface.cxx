@@ -97,6 +97,32 @@ TEST(TriangleSurface, KeepsItsDetailFarFromTheWorldsOrigin)
   EXPECT_NEAR(Length(surface->Origin() - far), 0.0, 1e-9);
 }
 
+TEST(TriangleSurface, RoundsNoPointForItsFrame)
+{
+  for (const double far : { 0.0, 1.0, 2.0, 1e3, 1e9 })
+  {
+    TriangleMesh mesh = Moved(Soup(20, 0.4, 5), { far, -far, 0.3 * far });
+    // As thin as rounding: shifted by a rounding it may be a line.
+    const double share = 0.37;
+    Vec3& last = mesh.Points[mesh.Triangles[0][2]];
+    const Vec3& a = mesh.Points[mesh.Triangles[0][0]];
+    last = a + share * (mesh.Points[mesh.Triangles[0][1]] - a);
+    const std::vector<Vec3> points = mesh.Points;
+    const auto surface = MakeSurface(mesh, Side::Both);
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      const Vec3& local = surface->Points()[i];
+      EXPECT_LE(Length(local), surface->Radius());
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        EXPECT_EQ(local[axis] + surface->Origin()[axis], points[i][axis]);
+        EXPECT_EQ(points[i][axis] - local[axis], surface->Origin()[axis]);
+      }
+    }
+    EXPECT_LT(surface->Radius(), 6.0);
+  }
+}
+
 TEST(TriangleSurface, NamesWhatIsWrongAndWhere)
 {
   EXPECT_NE(ErrorOf({}).find("no triangle"), std::string::npos);

@@ -44,7 +44,7 @@ struct ActivePlane
   /// plane, or as good as that.
   bool PassesOver(const Vector& point) const
   {
-    return glm::dot(this->Normal, point - this->Anchor) <= 0.25 * this->Clearance;
+    return glm::dot(this->Normal, point - this->Anchor) <= CertainHeight * this->Clearance;
   }
 };
 

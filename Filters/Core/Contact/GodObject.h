@@ -88,18 +88,18 @@ struct Contact
 /// - the look is left out only where a facet is known to be in the way: the god-object is in front
 ///   of it for certain, and the way to the HIP, behind it, goes through it at a distance from its
 ///   edges that is more than rounding.
-/// Conditions: the way does not squeeze through a gap that is to be closed (class NarrowGap: lips
-/// that run beside each other at no more than 6 clearances; slots from ten clearances on are open);
-/// the god-object is not Overloaded or Squeezed, not farther from a surface than eight times its
-/// radius, and the HIP is not that of a surface that is just being swept by a deformation. The cone
-/// is more than the proof needs: it leaves room for the frame's rounding.
+/// Conditions: the way does not squeeze through a gap that is to be closed (class NarrowGap: an
+/// edge that no other facet shares runs beside a facet within 6 clearances, so slits are open from
+/// 10 on); the god-object is not Overloaded or Squeezed, not farther from a surface than eight
+/// times its radius, and the HIP is not that of a surface that is just being swept by a
+/// deformation. The cone is more than the proof needs: it leaves room for the frame's rounding.
 ///
 /// What is *not* in plain view is reached around edges as far as each step shortens the way to the
 /// HIP. That no plane stops it that is not a facet's there: a facet reaches beyond an edge that it
 /// shares by a quarter of a clearance only, beyond an open edge or corner by 4 clearances, and
-/// there it does not hold what goes along a plane that it lies under (WorkingSet::Covers). Which of
-/// the facets that are met at once counts is decided by more than rounding, so that it is the same
-/// at every scale, place and frame.
+/// there it does not hold what goes along a plane that it lies under (WorkingSet::Covers). Of a HIP
+/// at rest it also leaves a corner along any facet within 64 clearances. Which of the facets met at
+/// once counts is decided by more than rounding: it is the same at every scale, place and frame.
 ///
 /// **Surfaces that move** see the god-object move, and its way in their own frame is certified like
 /// any other: from the point where they last had it, bit for bit, to the next. So nothing passes

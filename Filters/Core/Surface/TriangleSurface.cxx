@@ -57,7 +57,18 @@ std::string FindFault(const TriangleMesh& mesh, const SurfaceOptions& options)
   return {};
 }
 
-/// Moves the origin to the middle of the used points and returns their greatest distance from it.
+/// Whether a - b has no rounding (Knuth's two-sum).
+bool IsExactDifference(double a, double b)
+{
+  const double difference = a - b;
+  const double minusB = difference - a;
+  return a - (difference - minusB) == 0.0 && b + minusB == 0.0;
+}
+
+/// Moves the origin to the middle of the used points, in each coordinate in which that rounds none
+/// of them: so it is where the middle is twice as far out as they reach from it (Sterbenz), and
+/// where they have few digits. A triangle as thin as rounding would not be the same after it.
+/// Returns a bound on their distance from the origin.
 double Recentre(TriangleMesh& mesh, Vec3& origin)
 {
   Vector low(HUGE_VAL);
@@ -72,11 +83,26 @@ double Recentre(TriangleMesh& mesh, Vec3& origin)
     }
   }
   const Vector middle = low + 0.5 * (high - low);
-  origin = ToVec3(middle);
-  const double radius = 0.5 * glm::length(high - low) * (1.0 + 0x1p-40);
+  Vector shift = middle;
+  for (const Triangle& t : mesh.Triangles)
+  {
+    for (const std::int32_t corner : t)
+    {
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        if (!IsExactDifference(mesh.Points[corner][axis], shift[axis]))
+        {
+          shift[axis] = 0.0;
+        }
+      }
+    }
+  }
+  origin = ToVec3(shift);
+  const double radius =
+    (0.5 * glm::length(high - low) + glm::length(middle - shift)) * (1.0 + 0x1p-40);
   for (Vec3& p : mesh.Points)
   {
-    p = ToVec3(WithoutNegligible(ToVector(p) - middle, NegligibleShare * radius));
+    p = ToVec3(WithoutNegligible(ToVector(p) - shift, NegligibleShare * radius));
   }
   return radius;
 }

@@ -75,12 +75,14 @@ public:
   TriangleSurface(const TriangleSurface&) = delete;
   TriangleSurface& operator=(const TriangleSurface&) = delete;
 
-  /// Origin of the local frame, in the world frame: the middle of the bounds.
+  /// Origin of the local frame, in the world frame: the middle of the bounds, or 0 in a coordinate
+  /// in which a point would have to be rounded for it.
   const Vec3& Origin() const { return this->SurfaceOrigin; }
   /// Points in the local frame: world minus Origin(). Of a surface that deforms: where they go.
   const std::vector<Vec3>& Points() const { return *this->LocalPoints; }
   const std::vector<Triangle>& Triangles() const { return this->Shared->Triangles; }
-  /// Half the diagonal of the bounds: no point is farther from Origin(). [world unit]
+  /// No point is farther from Origin(): half the diagonal of the bounds, and their middle's
+  /// distance from there. [world unit]
   double Radius() const { return this->SurfaceRadius; }
   /// Across each edge of each triangle: the neighbour, BoundaryEdge or NonManifoldEdge.
   const Neighbours& AdjacentTriangles() const { return this->Shared->Adjacent; }
