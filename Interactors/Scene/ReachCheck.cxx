@@ -24,9 +24,9 @@ std::string ReachCheck::Check(
   for (const auto& surface : surfaces.All())
   {
     const auto touched = surface->Touched();
-    if (touched && 2.0 * touched->Radius() > size)
+    if (touched && touched->Diagonal() > size)
     {
-      size = 2.0 * touched->Radius();
+      size = touched->Diagonal();
       largest = surface.get();
     }
   }

@@ -96,7 +96,7 @@ std::string vtkHapticProbe::GetText()
   }
   std::ostringstream text;
   text << this->GetSurfaceName() << "   cell " << this->Cell << "\n";
-  const double size = this->Where.Touched ? 2.0 * this->Where.Touched->Radius() : 0.0;
+  const double size = this->Where.Touched ? this->Where.Touched->Diagonal() : 0.0;
   for (int axis = 0; axis < 3; ++axis)
   {
     text.precision(DigitsOf(this->Position[axis], size));

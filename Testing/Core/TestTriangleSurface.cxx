@@ -99,6 +99,7 @@ TEST(TriangleSurface, KeepsItsDetailFarFromTheWorldsOrigin)
 
 TEST(TriangleSurface, RoundsNoPointForItsFrame)
 {
+  double diagonal = 0.0;
   for (const double far : { 0.0, 1.0, 2.0, 1e3, 1e9 })
   {
     TriangleMesh mesh = Moved(Soup(20, 0.4, 5), { far, -far, 0.3 * far });
@@ -120,6 +121,8 @@ TEST(TriangleSurface, RoundsNoPointForItsFrame)
       }
     }
     EXPECT_LT(surface->Radius(), 6.0);
+    diagonal = far == 0.0 ? surface->Diagonal() : diagonal;
+    EXPECT_NEAR(surface->Diagonal(), diagonal, 1e-6);
   }
 }
 

@@ -213,6 +213,7 @@ std::shared_ptr<const TriangleSurface> SurfaceDeformer::Make(
   const TriangleSurface& from = *this->Current;
   std::shared_ptr<TriangleSurface> next(new TriangleSurface);
   next->SurfaceOrigin = from.SurfaceOrigin;
+  next->SurfaceDiagonal = from.SurfaceDiagonal;
   next->Shared = from.Shared;
   next->CrackWidth = from.CrackWidth;
   next->Touched = from.Touched;

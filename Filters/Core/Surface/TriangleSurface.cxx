@@ -68,8 +68,8 @@ bool IsExactDifference(double a, double b)
 /// Moves the origin to the middle of the used points, in each coordinate in which that rounds none
 /// of them: so it is where the middle is twice as far out as they reach from it (Sterbenz), and
 /// where they have few digits. A triangle as thin as rounding would not be the same after it.
-/// Returns a bound on their distance from the origin.
-double Recentre(TriangleMesh& mesh, Vec3& origin)
+/// Returns a bound on their distance from the origin. `diagonal`: set to that of their bounds.
+double Recentre(TriangleMesh& mesh, Vec3& origin, double& diagonal)
 {
   Vector low(HUGE_VAL);
   Vector high(-HUGE_VAL);
@@ -98,8 +98,8 @@ double Recentre(TriangleMesh& mesh, Vec3& origin)
     }
   }
   origin = ToVec3(shift);
-  const double radius =
-    (0.5 * glm::length(high - low) + glm::length(middle - shift)) * (1.0 + 0x1p-40);
+  diagonal = glm::length(high - low);
+  const double radius = (0.5 * diagonal + glm::length(middle - shift)) * (1.0 + 0x1p-40);
   for (Vec3& p : mesh.Points)
   {
     p = ToVec3(WithoutNegligible(ToVector(p) - shift, NegligibleShare * radius));
@@ -205,7 +205,7 @@ std::shared_ptr<const TriangleSurface> TriangleSurface::Build(
     return nullptr;
   }
   std::shared_ptr<TriangleSurface> surface(new TriangleSurface);
-  surface->SurfaceRadius = Recentre(mesh, surface->SurfaceOrigin);
+  surface->SurfaceRadius = Recentre(mesh, surface->SurfaceOrigin, surface->SurfaceDiagonal);
   surface->CrackWidth = options.CrackWidth;
   surface->LocalPoints = std::make_shared<const std::vector<Vec3>>(std::move(mesh.Points));
   const auto topology = std::make_shared<Topology>();

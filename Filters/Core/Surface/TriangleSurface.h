@@ -84,6 +84,8 @@ public:
   /// No point is farther from Origin(): half the diagonal of the bounds, and their middle's
   /// distance from there. [world unit]
   double Radius() const { return this->SurfaceRadius; }
+  /// Diagonal of the bounds, as it was built. [world unit]
+  double Diagonal() const { return this->SurfaceDiagonal; }
   /// Across each edge of each triangle: the neighbour, BoundaryEdge or NonManifoldEdge.
   const Neighbours& AdjacentTriangles() const { return this->Shared->Adjacent; }
   /// How far in front of a facet the god-object is kept at least [world unit]: 1024 roundings of
@@ -178,6 +180,7 @@ private:
   std::shared_ptr<const Topology> Shared;
   Vec3 SurfaceOrigin{};
   double SurfaceRadius = 0.0;
+  double SurfaceDiagonal = 0.0;
   double LongestEdge = 0.0; ///< of triangles that have an area
   double EndRadius = 0.0;   ///< as SurfaceRadius, of the points where they go
   double EndLongestEdge = 0.0;
