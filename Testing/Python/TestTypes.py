@@ -5,6 +5,7 @@ import os
 import pathlib
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -99,7 +100,7 @@ class Types(unittest.TestCase):
             settings = {"include": ["program.py"], "extraPaths": [str(self.site)]}
             (self.folder / "pyrightconfig.json").write_text(json.dumps(settings))
             done = subprocess.run(
-                ["pyright", "--outputjson"], cwd=self.folder, capture_output=True, text=True,
+                ["pyright", "--outputjson", "--pythonpath", sys.executable], cwd=self.folder, capture_output=True, text=True,
                 env=ALONE,
             )
             found = json.loads(done.stdout)["generalDiagnostics"]
