@@ -333,6 +333,20 @@ void vtkMouseHapticDevice::SetScene(vtkHapticScene* scene)
   }
 }
 
+void vtkMouseHapticDevice::SetRenderer(vtkRenderer* renderer)
+{
+  if (renderer != this->Renderer)
+  {
+    this->Renderer = renderer;
+    this->Modified();
+  }
+}
+
+vtkRenderer* vtkMouseHapticDevice::GetRenderer()
+{
+  return this->Renderer;
+}
+
 vtkHapticScene* vtkMouseHapticDevice::GetScene()
 {
   return this->Scene;
@@ -579,6 +593,13 @@ bool vtkMouseHapticDevice::IsCarrying()
   return this->Scene && this->Scene->GetGrip()->GetSurface() >= 0;
 }
 
+/// Whether the cursor is over what another renderer draws.
+bool vtkMouseHapticDevice::IsElsewhere()
+{
+  return this->Renderer &&
+    this->Interactor->FindPokedRenderer(this->Cursor[0], this->Cursor[1]) != this->Renderer;
+}
+
 /// Takes in what is under the cursor. False, and all as it was, where that is nothing.
 bool vtkMouseHapticDevice::Find(const View& view)
 {
@@ -696,7 +717,7 @@ void vtkMouseHapticDevice::Follow(bool mustPlace)
   before.Cursor[0] = this->FoundAt[0];
   before.Cursor[1] = this->FoundAt[1];
   this->LookedAt = view.Time;
-  this->Waiting = !this->Find(view);
+  this->Waiting = this->IsElsewhere() || !this->Find(view);
   if (this->Waiting)
   {
     if (this->IsPressing)
@@ -924,6 +945,7 @@ void vtkMouseHapticDevice::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Interactor: " << this->Interactor.Get() << "\n";
   os << indent << "Scene: " << this->Scene.Get() << "\n";
+  os << indent << "Renderer: " << this->Renderer.Get() << "\n";
   os << indent << "Target [m]: (" << this->Target[0] << ", " << this->Target[1] << ", "
      << this->Target[2] << ")\n";
   os << indent << "Pressed: " << (this->Pressed ? "yes" : "no") << "\n";

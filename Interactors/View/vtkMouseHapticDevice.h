@@ -87,6 +87,15 @@ public:
   ///@}
 
   ///@{
+  /**
+   * The renderer whose surfaces the mouse touches; over another one, as over another subplot, the
+   * hand waits. Null, the default: whichever is under the cursor. Not kept alive.
+   */
+  void SetRenderer(vtkRenderer* renderer);
+  vtkRenderer* GetRenderer();
+  ///@}
+
+  ///@{
   /** How much deeper a notch of the wheel presses, device frame [m]. Default 0.001; 1e-6 to 0.05.
    */
   vtkSetClampMacro(WheelStep, double, 1e-6, 0.05);
@@ -154,6 +163,7 @@ private:
   void ForgetRelease();
   bool IsCarrying();
   bool Look(View& view);
+  bool IsElsewhere();
   bool Find(const View& view);
   void Follow(bool mustPlace);
   void Carry(const View& view, double depth);
@@ -171,6 +181,7 @@ private:
 
   vtkWeakPointer<vtkRenderWindowInteractor> Interactor;
   vtkWeakPointer<vtkHapticScene> Scene;
+  vtkWeakPointer<vtkRenderer> Renderer;
   vtkNew<vtkCallbackCommand> Callback;
   vtkNew<vtkCallbackCommand> PassiveCallback;
   std::shared_ptr<MouseChannel> Mouse;

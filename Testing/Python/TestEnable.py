@@ -184,6 +184,29 @@ def test_touches_the_outside_of_meshes():
     touch.disable()
 
 
+def test_the_hand_waits_over_another_subplot():
+    interactor = plot(ball())
+    window = interactor.GetRenderWindow()
+    left, right = window.GetRenderers().GetFirstRenderer(), vtkRenderer()
+    left.SetViewport(0.0, 0.0, 0.5, 1.0)
+    right.SetViewport(0.5, 0.0, 1.0, 1.0)
+    right.AddViewProp(ball())
+    window.AddRenderer(right)
+    right.ResetCamera()
+    touch = vtkhaptics.enable(interactor)
+    touch.style.UpdateScene()  # connects the mouse
+    touch.scene.Release()
+    touch.scene.Step(1)
+    touch.device.SetPressed(True)
+    for x, touches in ((25, True), (75, False), (25, True)):
+        touch.device.MoveTo(x, 50)
+        touch.scene.Step(300)
+        assert touch.scene.GetTouching() == touches, x
+        assert touch.device.GetWaiting() != touches, x
+    touch.disable()
+
+
+
 test_touches_and_leaves_no_trace()
 test_takes_what_can_be_touched()
 test_names_of_the_plot()
@@ -191,3 +214,4 @@ test_refuses_what_cannot_be_touched()
 test_follows_what_is_shown()
 test_touches_the_outside_of_meshes()
 test_clipping_planes_of_meshes_are_followed()
+test_the_hand_waits_over_another_subplot()

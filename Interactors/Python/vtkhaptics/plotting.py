@@ -108,8 +108,8 @@ def enable(plotter, device=None, stiffness=500.0, overlay=True):
     `plotter` is a pyvista.Plotter, or a vtkRenderWindowInteractor with a window. The surfaces are
     what its visible, pickable actors and assemblies show, of volume meshes the outside; what comes,
     goes or is replaced later is followed at each picture. Names that the plot gives them are those of
-    messages, read-out and traces. Of several subplots the active one is
-    touched. `stiffness` in N/m. Returns a Touch, whose `scene` is the vtkHapticScene. Raises
+    messages, read-out and traces. Of several subplots the active one is touched; over the others the
+    mouse's hand waits. `stiffness` in N/m. Returns a Touch, whose `scene` is the vtkHapticScene. Raises
     TypeError for anything that is no plotter, and ValueError where there is nothing to touch, the
     device does not open, or the plot is touched already.
     """
@@ -119,6 +119,8 @@ def enable(plotter, device=None, stiffness=500.0, overlay=True):
     scene = vtkHapticScene()
     scene.SetStiffness(stiffness)
     device = device or vtkMouseHapticDevice()
+    if isinstance(device, vtkMouseHapticDevice):
+        device.SetRenderer(renderer)
     scene.SetDevice(device)
     style = vtkInteractorStyleHaptic()
     style.SetScene(scene)
