@@ -3,6 +3,7 @@
 #include "vtkActor.h"
 #include "vtkCallbackCommand.h"
 #include "vtkCamera.h"
+#include "vtkHapticLandmarks.h"
 #include "vtkHapticOverlay.h"
 #include "vtkMatrix4x4.h"
 #include "vtkPolyDataMapper.h"
@@ -181,6 +182,36 @@ TEST(InteractorStyleHaptic, TwoStylesOnOneDeviceAreRefusedWithTheReason)
   first.Press('h');
   second.Press('h');
   EXPECT_TRUE(second.Hand.Scene->IsEngaged()) << "once it is free";
+}
+
+TEST(HapticOverlay, ReadsOutHowFarTheLastTwoLandmarksAreApart)
+{
+  LedHand hand;
+  vtkNew<vtkHapticView> view;
+  view->SetScene(hand.Scene);
+  vtkHapticOverlay* overlay = view->GetOverlay();
+  hand.Scene->AddSurface(MakeTable(0.0));
+  hand.MoveTo(0.01);
+  hand.MoveTo(-0.001);
+  hand.Scene->DropLandmark();
+  hand.Scene->Step(1);
+  const auto lastLine = [&]
+  {
+    const std::string text = overlay->GetReadout();
+    return text.substr(text.rfind('\n') + 1);
+  };
+  EXPECT_EQ(lastLine(), "landmark 1");
+  hand.Device->SetPosition(0.01, -0.02, -0.001);
+  hand.Scene->Step(1);
+  hand.Scene->DropLandmark();
+  hand.Scene->SetUnitLength(1.0);
+  hand.Scene->Step(1);
+  EXPECT_EQ(lastLine(), "landmark 2: 0.04 m from 1");
+  hand.MoveTo(0.01);
+  EXPECT_EQ(overlay->GetReadout(), "landmark 2: 0.04 m from 1") << "in free space too";
+  hand.Scene->GetLandmarks()->RemoveAll();
+  hand.MoveTo(0.01);
+  EXPECT_EQ(overlay->GetReadout(), "");
 }
 
 TEST(HapticOverlay, ReadsOutWhichSurfaceIsTouchedAndWhyThereIsNoForce)
