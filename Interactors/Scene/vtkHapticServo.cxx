@@ -1,21 +1,62 @@
 #include "vtkHapticServo.h"
 
-#include "haptics/Scene/HapticServoInternals.h"
-
+#include "haptics/Scene/RunRecorder.h"
+#include "haptics/Servo/MonotonicClock.h"
+#include "haptics/Servo/RealTimePriority.h"
+#include "haptics/Servo/SafetySettings.h"
+#include "haptics/Servo/ServoCycle.h"
+#include "haptics/Servo/ServoLoop.h"
+#include "haptics/Servo/ServoStatistics.h"
 #include "haptics/Servo/StiffnessLimit.h"
-#include "vtkHapticSafety.h"
-
+#include "haptics/Tick/TickRecord.h"
 #include "vtkCommand.h"
 #include "vtkHapticDevice.h"
+#include "vtkHapticSafety.h"
 #include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
+
+class vtkHapticServo::Internals
+{
+public:
+  static constexpr std::size_t RecordsKept = 16384;
+
+  haptics::ServoCycle Cycle{ RecordsKept };
+  haptics::ServoStatistics Statistics;
+  haptics::ServoLoop Loop{ this->Cycle, this->Statistics }; // last: ends before the others
+  haptics::ServoSettings Settings;
+  haptics::RunRecorder Recorder;
+  std::shared_ptr<haptics::DeviceChannel> Claimed; // null while no run has a device
+
+  void Unclaim()
+  {
+    if (this->Claimed)
+    {
+      this->Claimed->Unclaim();
+      this->Claimed.reset();
+    }
+  }
+};
 
 namespace
 {
+constexpr double NanosecondsInSecond = 1e9;
+
+/// The same in the servo's whole nanoseconds.
+std::uint64_t Nanoseconds(double seconds)
+{
+  return static_cast<std::uint64_t>(std::llround(NanosecondsInSecond * seconds));
+}
+
+void Copy(const haptics::Vec3& from, double to[3])
+{
+  std::copy(from.begin(), from.end(), to);
+}
+
 static_assert(static_cast<int>(haptics::ServoState::Stalled) == vtkHapticServo::Stalled &&
     static_cast<int>(haptics::ServoState::DeviceLost) == vtkHapticServo::DeviceLost &&
     static_cast<int>(haptics::ServoState::Stepping) == vtkHapticServo::Stepping &&
@@ -249,6 +290,141 @@ void vtkHapticServo::Configure()
   this->Internal->Cycle.Configure(this->Internal->Settings);
 }
 
+//--- runs -----------------------------------------------------------------------------------------
+
+bool vtkHapticServo::Begin(int state)
+{
+  if (!this->Device || !this->Device->IsOpen())
+  {
+    this->Fail(this->Device ? "The device is not open. Call its Open() first."
+                            : "There is no device. Call SetDevice() first.");
+    return false;
+  }
+  this->Stop();
+  this->Internal->Settings.Safety.NominalPeriod = 1.0 / this->Rate;
+  this->Configure(); // the device's limits may be others since it was opened
+  this->Internal->Statistics.Clear();
+  std::shared_ptr<haptics::DeviceChannel> channel = this->Device->GetChannel();
+  if (!channel->Claim())
+  {
+    this->Fail("The device is in use by another servo, of another scene or view. Release that one "
+               "first, or give each a device of its own.");
+    return false;
+  }
+  this->Internal->Claimed = channel;
+  this->Internal->Recorder.Clear();
+  if (!this->RecordingFileName.empty())
+  {
+    std::string error;
+    channel = this->Internal->Recorder.Start(
+      this->RecordingFileName, this->Device, this->Rate, channel, error);
+    if (!channel)
+    {
+      this->Internal->Unclaim();
+      this->Fail(error);
+      return false;
+    }
+  }
+  this->Internal->Cycle.Begin(std::move(channel), static_cast<haptics::ServoState>(state));
+  this->ErrorMessage.clear();
+  return true;
+}
+
+bool vtkHapticServo::Start()
+{
+  if (this->IsRunning())
+  {
+    return true;
+  }
+  if (!this->Begin(Running))
+  {
+    return false;
+  }
+  haptics::ServoTiming timing;
+  timing.Period = static_cast<std::uint64_t>(std::llround(NanosecondsInSecond / this->Rate));
+  timing.StallLimit = Nanoseconds(this->StallLimit);
+  timing.WatchdogTime = Nanoseconds(this->Safety->GetWatchdogTime());
+  timing.MissedShare = this->Safety->GetMissedTickShare();
+  timing.RealTimePriority = this->RealTimePriority;
+  timing.DevicePaced = this->DevicePaced;
+  std::string error;
+  if (!this->Internal->Loop.Start(timing, error))
+  {
+    this->Internal->Cycle.End(haptics::ServoState::Stopped);
+    this->Update(); // others may have the device
+    this->Fail(error);
+    return false;
+  }
+  this->PriorityNote = this->RealTimePriority
+    ? haptics::DescribePriority(this->Internal->Loop.GetPriorityResult())
+    : "Real-time priority was not asked for.";
+  this->NoticeState(Running);
+  return true;
+}
+
+void vtkHapticServo::Stop()
+{
+  this->Internal->Loop.Stop();
+  if (this->Internal->Cycle.GetState() == haptics::ServoState::Stepping)
+  {
+    this->Internal->Cycle.End(haptics::ServoState::Stopped);
+  }
+  this->Update();
+}
+
+int vtkHapticServo::Step(int n)
+{
+  this->ErrorMessage.clear();
+  if (this->IsRunning())
+  {
+    this->Fail("The servo is running on its own thread. Call Stop() before Step().");
+    return 0;
+  }
+  if (n < 0)
+  {
+    this->Fail("The number of steps must not be below 0, but is " + std::to_string(n) + ".");
+    return 0;
+  }
+  // A device that was opened again has another channel, and begins anew.
+  const std::shared_ptr<haptics::DeviceChannel> channelNow =
+    this->Device ? this->Device->GetChannel() : nullptr;
+  const bool isOpenedAgain = channelNow && channelNow != this->Internal->Claimed;
+  if (this->Internal->Cycle.GetState() != haptics::ServoState::Stepping || isOpenedAgain)
+  {
+    if (!this->Begin(Stepping))
+    {
+      return 0;
+    }
+    this->NextStep = 0;
+    this->StepPeriod = 1.0 / this->Rate;
+  }
+
+  haptics::DeviceChannel& channel = this->Internal->Cycle.GetChannel();
+  int done = 0;
+  for (; done < n; ++done)
+  {
+    double time = 0.0;
+    const bool deviceTime = channel.NextTime(time);
+    if (!deviceTime)
+    {
+      time = static_cast<double>(this->NextStep) * this->StepPeriod;
+    }
+    const double period = deviceTime ? time - this->LastStepTime : this->StepPeriod;
+    this->Internal->Recorder.WaitForRoom();
+    const std::uint64_t before = haptics::MonotonicNow();
+    if (!this->Internal->Cycle.Tick(time))
+    {
+      break;
+    }
+    this->Internal->Statistics.AddTick(
+      Nanoseconds(std::max(0.0, period)), haptics::MonotonicNow() - before);
+    this->LastStepTime = time;
+    ++this->NextStep;
+  }
+  this->Update();
+  return done;
+}
+
 bool vtkHapticServo::IsRunning()
 {
   return this->Internal->Cycle.GetState() == haptics::ServoState::Running;
@@ -268,16 +444,26 @@ bool vtkHapticServo::Update()
   // The state is read first, so that the record of an end is there when the state tells of it.
   const int state = static_cast<int>(this->Internal->Cycle.GetState());
   const bool hasTicked = this->Internal->Cycle.UpdateLatest();
-  this->NoticeRecording();
+  this->ReportRecording();
   if (state != Running && state != Stepping)
   {
     // A run that has ended by itself still has its thread, and a watchdog that would halt the
     // device although another servo has it.
     this->Internal->Loop.Stop();
-    this->FinishRecording();
+    this->Internal->Recorder.Finish();
+    this->ReportRecording();
     this->Internal->Unclaim();
   }
   return this->NoticeState(state) || hasTicked;
+}
+
+void vtkHapticServo::ReportRecording()
+{
+  const std::string failure = this->Internal->Recorder.TakeFailure();
+  if (!failure.empty())
+  {
+    this->Fail(failure);
+  }
 }
 
 bool vtkHapticServo::NoticeState(int state)
@@ -305,6 +491,8 @@ void vtkHapticServo::Fail(const std::string& message)
   this->ErrorMessage = message;
   vtkErrorMacro(<< message);
 }
+
+//--- readings -------------------------------------------------------------------------------------
 
 vtkTypeInt64 vtkHapticServo::GetNumberOfHalts()
 {
@@ -339,4 +527,221 @@ const haptics::TickRecord& vtkHapticServo::GetLatestRecord() const
 haptics::ServoReport vtkHapticServo::GetReport() const
 {
   return this->Internal->Statistics.Report();
+}
+
+const char* vtkHapticServo::GetStateAsString()
+{
+  static const char* const names[] = { "Stopped", "Running", "Stepping", "DeviceLost",
+    "InvalidPosition", "InvalidForce", "Stalled", "Overrun", "Interrupted" };
+  return names[this->State];
+}
+
+void vtkHapticServo::GetHapticInterfacePoint(double position[3])
+{
+  Copy(this->GetLatestRecord().Hip, position);
+}
+
+void vtkHapticServo::GetGodObject(double position[3])
+{
+  Copy(this->GetLatestRecord().Position, position);
+}
+
+void vtkHapticServo::GetForce(double force[3])
+{
+  Copy(this->GetLatestRecord().Force, force);
+}
+
+void vtkHapticServo::GetWorldForce(double force[3])
+{
+  Copy(this->GetLatestRecord().WorldForce, force);
+}
+
+void vtkHapticServo::GetDevicePosition(double position[3])
+{
+  Copy(this->GetLatestRecord().DevicePosition, position);
+}
+
+unsigned int vtkHapticServo::GetButtons()
+{
+  return this->GetLatestRecord().Buttons;
+}
+
+double vtkHapticServo::GetPenetration()
+{
+  return this->GetLatestRecord().Penetration;
+}
+
+int vtkHapticServo::GetNumberOfConstraints()
+{
+  return this->GetLatestRecord().NumberOfConstraints;
+}
+
+double vtkHapticServo::GetTime()
+{
+  return this->GetLatestRecord().Time;
+}
+
+vtkTypeInt64 vtkHapticServo::GetNumberOfRecordedTicks()
+{
+  return static_cast<vtkTypeInt64>(this->Internal->Recorder.GetNumberOfTicks());
+}
+
+vtkTypeInt64 vtkHapticServo::GetNumberOfUnrecordedTicks()
+{
+  return static_cast<vtkTypeInt64>(this->Internal->Recorder.GetNumberOfLostTicks());
+}
+
+vtkTypeInt64 vtkHapticServo::GetNumberOfTicks()
+{
+  return static_cast<vtkTypeInt64>(this->GetReport().Ticks);
+}
+
+vtkTypeInt64 vtkHapticServo::GetNumberOfMissedTicks()
+{
+  return static_cast<vtkTypeInt64>(this->GetReport().MissedTicks);
+}
+
+double vtkHapticServo::GetMeasuredRate()
+{
+  return this->GetReport().Rate();
+}
+
+double vtkHapticServo::GetMeanPeriod()
+{
+  return this->GetReport().MeanPeriod;
+}
+
+double vtkHapticServo::GetPeriodRatio()
+{
+  return this->GetReport().PeriodRatio;
+}
+
+double vtkHapticServo::GetMaximumPeriod()
+{
+  return this->GetReport().MaximumPeriod;
+}
+
+double vtkHapticServo::GetPeriodQuantile(double fraction)
+{
+  return haptics::Quantile(this->GetReport().Periods, fraction);
+}
+
+double vtkHapticServo::GetTickTimeQuantile(double fraction)
+{
+  return haptics::Quantile(this->GetReport().TickTimes, fraction);
+}
+
+double vtkHapticServo::GetMaximumTickTime()
+{
+  return this->GetReport().MaximumTickTime;
+}
+
+int vtkHapticServo::GetNumberOfHistogramBins()
+{
+  return haptics::LogHistogram::NumberOfBins;
+}
+
+double vtkHapticServo::GetHistogramEdge(int bin)
+{
+  return bin < 0 || bin > haptics::LogHistogram::NumberOfBins
+    ? 0.0
+    : static_cast<double>(haptics::LogHistogram::LowerEdge(bin)) / NanosecondsInSecond;
+}
+
+vtkTypeInt64 vtkHapticServo::GetPeriodCount(int bin)
+{
+  return bin < 0 || bin >= haptics::LogHistogram::NumberOfBins
+    ? 0
+    : static_cast<vtkTypeInt64>(this->GetReport().Periods[static_cast<std::size_t>(bin)]);
+}
+
+vtkTypeInt64 vtkHapticServo::GetTickTimeCount(int bin)
+{
+  return bin < 0 || bin >= haptics::LogHistogram::NumberOfBins
+    ? 0
+    : static_cast<vtkTypeInt64>(this->GetReport().TickTimes[static_cast<std::size_t>(bin)]);
+}
+
+double vtkHapticServo::GetCurrentStiffness()
+{
+  return this->GetLatestRecord().Stiffness;
+}
+
+double vtkHapticServo::GetObservedEnergy()
+{
+  return this->GetLatestRecord().PassivityBalance;
+}
+
+double vtkHapticServo::GetEnergyTank()
+{
+  return this->GetLatestRecord().Tank;
+}
+
+unsigned int vtkHapticServo::GetForceLimits()
+{
+  return this->GetLatestRecord().Limits;
+}
+
+std::string vtkHapticServo::DescribeForceLimits()
+{
+  struct Name
+  {
+    haptics::SafetyLimit Bit;
+    const char* Text;
+  };
+  static const Name names[] = { { haptics::ForceClamped, "largest force" },
+    { haptics::ForceSlewed, "slew limit" }, { haptics::SoftStarted, "soft start" },
+    { haptics::StiffnessLimited, "stiffness limit" },
+    { haptics::PassivityDamped, "passivity control" }, { haptics::PausedForce, "paused" },
+    { haptics::EnergyHeldBack, "energy tank" } };
+  std::string text;
+  for (const Name& name : names)
+  {
+    if ((this->GetForceLimits() & name.Bit) != 0)
+    {
+      text += (text.empty() ? "" : ", ") + std::string(name.Text);
+    }
+  }
+  return text;
+}
+
+void vtkHapticServo::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  const haptics::TickRecord& tick = this->GetLatestRecord();
+  const haptics::ServoReport report = this->GetReport();
+  const auto print = [&os, indent](const char* name, const haptics::Vec3& v, const char* unit)
+  { os << indent << name << ": (" << v[0] << ", " << v[1] << ", " << v[2] << ")" << unit << "\n"; };
+  os << indent << "Device: " << this->Device.Get() << "\n";
+  os << indent << "Rate: " << this->Rate << " Hz\n";
+  os << indent << "RealTimePriority: " << (this->RealTimePriority ? "on" : "off") << "\n";
+  os << indent << "PriorityNote: " << this->PriorityNote << "\n";
+  os << indent << "StallLimit: " << this->StallLimit << " s\n";
+  os << indent << "Stiffness: " << this->Stiffness << " N/m, in effect "
+     << this->GetEffectiveStiffness() << " N/m\n";
+  os << indent << "MaximumForce: " << this->MaximumForce << " N, in effect "
+     << this->GetEffectiveMaximumForce() << " N\n";
+  os << indent << "Paused: " << (this->Paused ? "yes" : "no") << "\n";
+  os << indent << "DevicePaced: " << (this->DevicePaced ? "on" : "off") << "\n";
+  os << indent << "RecordingFileName: " << this->RecordingFileName << "\n";
+  os << indent << "State: " << this->GetStateAsString() << "\n";
+  os << indent << "ErrorMessage: " << this->ErrorMessage << "\n";
+  print("HapticInterfacePoint", tick.Hip, "");
+  print("GodObject", tick.Position, "");
+  print("Force", tick.Force, " N");
+  os << indent << "Penetration: " << tick.Penetration << "\n";
+  os << indent << "NumberOfConstraints: " << tick.NumberOfConstraints << "\n";
+  os << indent << "CurrentStiffness: " << tick.Stiffness << " N/m\n";
+  os << indent << "ObservedEnergy: " << tick.PassivityBalance << " J\n";
+  os << indent << "EnergyTank: " << tick.Tank << " J\n";
+  os << indent << "ForceLimits: " << this->DescribeForceLimits() << "\n";
+  os << indent << "NumberOfHalts: " << this->GetNumberOfHalts() << "\n";
+  os << indent << "NumberOfTicks: " << report.Ticks << "\n";
+  os << indent << "NumberOfMissedTicks: " << report.MissedTicks << "\n";
+  os << indent << "MeasuredRate: " << report.Rate() << " Hz\n";
+  os << indent << "PeriodRatio: " << report.PeriodRatio << " s\n";
+  os << indent << "MaximumPeriod: " << report.MaximumPeriod << " s\n";
+  os << indent << "NumberOfLostRecords: " << this->GetNumberOfLostRecords() << "\n";
+  os << indent << "Safety:\n";
+  this->GetSafety()->PrintSelf(os, indent.GetNextIndent());
 }

@@ -325,9 +325,7 @@ private:
   void Configure(); // hands all settings to the servo thread
   void Fail(const std::string& message);
   bool NoticeState(int state);
-  void FinishRecording();
-  void NoticeRecording();
-  void CountRecordedTicks();
+  void ReportRecording();
 
   std::unique_ptr<Internals> Internal;
   vtkSmartPointer<vtkHapticDevice> Device;
@@ -346,8 +344,6 @@ private:
   std::string ErrorMessage;
   std::string PriorityNote;
   std::string RecordingFileName;
-  vtkTypeInt64 RecordedTicks = 0;
-  vtkTypeInt64 UnrecordedTicks = 0;
 };
 
 #endif
