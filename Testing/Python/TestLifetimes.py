@@ -14,7 +14,7 @@ import vtkhaptics
 from vtkhaptics import vtkHapticScene, vtkSimulatedHapticDevice
 from vtkmodules.vtkFiltersSources import vtkPlaneSource, vtkSphereSource
 
-PATIENCE = 20.0  # [s]
+from servo_tools import PATIENCE, be_patient, wait_for
 
 
 def pressing(background=False, recording=None):
@@ -24,9 +24,7 @@ def pressing(background=False, recording=None):
     scene.AddSurface(table.GetOutputPort())
     scene.SetBackgroundBuilding(background)
     servo = scene.GetServo()
-    servo.SetStallLimit(60.0)  # a busy machine is no fault in a test
-    servo.GetSafety().LoosenMissedTickShare(60.0)
-    servo.GetSafety().LoosenWatchdogTime(1.0)
+    be_patient(servo)
     if recording:
         servo.SetRecordingFileName(recording)
     device.SetPosition(0.0, 0.0, 0.01)
@@ -35,15 +33,6 @@ def pressing(background=False, recording=None):
     device.SetPosition(0.0, 0.0, -0.002)
     wait_for(lambda: device.GetForce()[2] > 0.9, scene)
     return scene, device
-
-
-def wait_for(condition, scene=None):
-    end = time.monotonic() + PATIENCE
-    while not condition():
-        assert time.monotonic() < end, f"waited for {PATIENCE} s"
-        time.sleep(0.002)
-        if scene:
-            scene.Update()
 
 
 def run(program):

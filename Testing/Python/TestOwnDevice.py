@@ -14,8 +14,9 @@ from vtkhaptics import HapticDevice, HapticsError, SharedHand, vtkHapticScene, v
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkFiltersSources import vtkPlaneSource
 
+from servo_tools import be_patient, wait_for
+
 SHARING = os.path.join(os.path.dirname(vtkhaptics.__file__), "sharing.py")
-PATIENCE = 20.0  # [s]
 DEPTH = -0.002  # [m]: 1 N of the scene's 500 N/m
 
 
@@ -23,20 +24,8 @@ def table_scene(device):
     scene, table = vtkHapticScene(), vtkPlaneSource()
     scene.AddSurface(table.GetOutputPort())
     scene.SetDevice(device)
-    servo = scene.GetServo()
-    servo.SetStallLimit(60.0)  # a busy machine is no fault in a test
-    servo.GetSafety().LoosenMissedTickShare(60.0)
-    servo.GetSafety().LoosenWatchdogTime(1.0)
+    be_patient(scene.GetServo())
     return scene
-
-
-def wait_for(condition, scene=None):
-    end = time.monotonic() + PATIENCE
-    while not condition():
-        assert time.monotonic() < end, f"waited for {PATIENCE} s"
-        time.sleep(0.002)
-        if scene:
-            scene.Update()
 
 
 class Hand(HapticDevice):

@@ -12,27 +12,10 @@ import vtkmodules.vtkCommonCore  # noqa: F401  (before PyVista, so that it takes
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
+import plot_program
 from real_window import Desktop, skip_where_it_cannot_run
 
-PLOT = """
-import sys
-import vtkmodules.vtkInteractionStyle
-import vtkhaptics
-from vtkmodules.vtkFiltersSources import vtkSphereSource
-from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow, vtkRenderWindowInteractor
-from vtkhaptics.picture import surface_actor
-
-ball = vtkSphereSource()
-ball.Update()
-renderer, window = vtkRenderer(), vtkRenderWindow()
-renderer.AddActor(surface_actor(ball.GetOutput()))
-window.SetSize(300, 200)
-window.SetWindowName("VTK Haptics")
-window.AddRenderer(renderer)
-interactor = vtkRenderWindowInteractor()
-interactor.SetRenderWindow(window)
-interactor.Initialize()
-touch = vtkhaptics.enable(interactor)
+PLOT = plot_program.PLOT + """
 if "--observed" in sys.argv:  # Python's own code runs in the event loop, and so signal handlers
     interactor.AddObserver("TimerEvent", lambda *_: None, 5.0)
 print("ready", flush=True)

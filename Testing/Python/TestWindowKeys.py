@@ -9,27 +9,11 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
 
+import plot_program
 from real_window import Desktop, skip_where_it_cannot_run, wait_for
 
 # Prints, whenever they change, whether the help is shown and how far the hand goes.
-PLOT = """
-import vtkmodules.vtkInteractionStyle
-import vtkhaptics
-from vtkmodules.vtkFiltersSources import vtkSphereSource
-from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow, vtkRenderWindowInteractor
-from vtkhaptics.picture import surface_actor
-
-ball = vtkSphereSource()
-ball.Update()
-renderer, window = vtkRenderer(), vtkRenderWindow()
-renderer.AddActor(surface_actor(ball.GetOutput()))
-window.SetSize(300, 200)
-window.SetWindowName("VTK Haptics")
-window.AddRenderer(renderer)
-interactor = vtkRenderWindowInteractor()
-interactor.SetRenderWindow(window)
-interactor.Initialize()
-touch = vtkhaptics.enable(interactor)
+PLOT = plot_program.PLOT + """
 home = touch.scene.GetWorkspaceTransform().Determinant()
 said = None
 
