@@ -43,7 +43,7 @@ template <int Passes>
 std::function<MethodPointer(const TriangleMesh&)> OursOf()
 {
   return [](const TriangleMesh& mesh)
-  { return MakeCertifiedOfFewPasses<Passes>({ MakeSurface(mesh, Side::Front) }); };
+  { return MakeCertified({ MakeSurface(mesh, Side::Front) }, Passes); };
 }
 }
 

@@ -98,6 +98,24 @@ TEST(GodObject, CrossesAConvexEdgeWithinOneTick)
   ExpectAt(contact, { 0.02, 0, 0.015 });
 }
 
+//  ----o
+//      |  x  ->  o at x: within one tick, or with one pass a tick in the next
+TEST(GodObject, TakesTwoTicksOverAConvexEdgeWithOnePassATick)
+{
+  const Vec3 beside{ 0.0205, 0, 0.015 };
+  for (const int passes : { -3, 1, 2, 16, 1000 }) // clamped to 1 to 16
+  {
+    SCOPED_TRACE(passes);
+    GodObject god({ MakeSurface(Box(0.02, 0.02, 0.02, 2)) });
+    god.SetPassLimit(passes);
+    god.Update({ 0.0195, 0, 0.021 });
+    god.Update({ 0.0195, 0, 0.0195 });
+    const bool isThere = god.Update(beside).Position == beside;
+    EXPECT_EQ(isThere, passes > 1);
+    EXPECT_EQ(god.Update(beside).Position, beside);
+  }
+}
+
 TEST(GodObject, StaysAtTheEntryFaceOfAPlateAtAnyDepth)
 {
   for (const double thickness : { 5e-3, 1e-3, 1e-4, 1e-6 })

@@ -360,8 +360,7 @@ const std::vector<Scene>& AllScenes()
       { { 0.006, 0.02 }, { 0.02, 0.02 }, { 0.02, 0.012 } } },
     { "Fig. 5", "Over a convex edge of 150 deg at 0.3 m/s, one step a tick", ours,
       "one pass a tick", With([] { return Certified(Ridge(150, 0.02)); }, AroundEdge),
-      With(
-        [] { return MakeCertifiedOfFewPasses<1>({ MakeSurface(Ridge(150, 0.02)) }); }, AroundEdge),
+      With([] { return MakeCertified({ MakeSurface(Ridge(150, 0.02)) }, 1); }, AroundEdge),
       { 1, 0, 0 },
       { { -0.005, -0.005 * std::tan(15 * Degree) }, { 0, 0 },
         { 0.005, -0.005 * std::tan(15 * Degree) } } },

@@ -119,7 +119,7 @@ void GodObject::Implementation::Update(const Vector& hip)
   this->IsOverloaded = false;
   this->Way[0] = ToVec3(this->Position);
   this->WaySize = 1;
-  this->PassesLeft = LargestNumberOfPasses;
+  this->PassesLeft = this->PassesAllowed;
   this->ReleasesLeft = LargestNumberOfReleases;
   this->GoalMoved = glm::length(hip - this->LastHip);
   this->LastHip = hip;
@@ -417,6 +417,11 @@ GodObject::GodObject(std::vector<TouchedSurface> surfaces)
 }
 
 GodObject::~GodObject() = default;
+
+void GodObject::SetPassLimit(int passes)
+{
+  this->Internal->PassesAllowed = std::clamp(passes, 1, LargestNumberOfPasses);
+}
 
 void GodObject::Place(const Vec3& hip) noexcept
 {

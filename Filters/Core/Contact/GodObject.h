@@ -136,6 +136,15 @@ public:
   GodObject(const GodObject&) = delete;
   GodObject& operator=(const GodObject&) = delete;
 
+  /// How many passes an update may make: 1 to 16, the default; clamped. Fig. 5's two-step
+  /// transition over a convex edge is made within one update by passes, each of which lets go of
+  /// the planes that held only beyond their facets. Two or three do on a slide; a god-object that
+  /// slips off a round body in one tick takes more, and every tick that needs fewer pays none. With
+  /// 1 the transition takes two ticks, as in the paper. The guarantees do not depend on it, but for
+  /// how far the god-object gets in one update. GUI thread, before the servo has this object.
+  void SetPassLimit(int passes);
+  static constexpr int LargestNumberOfPasses = 16;
+
   /// Puts the god-object at `hip` as in free space. Servo thread. [world]
   void Place(const Vec3& hip) noexcept;
   /// The HIP has been put elsewhere, by another workspace. One that touches stays where it is, on

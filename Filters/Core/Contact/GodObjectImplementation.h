@@ -8,14 +8,6 @@
 
 namespace haptics
 {
-/// Fig. 5's two-step transition over a convex edge is made within one update by passes; each lets
-/// go of the planes that held only beyond their facets. Two or three do on a slide; a god-object
-/// that slips off a round body in one tick takes more, and every tick that needs fewer pays none.
-#ifdef HAPTICS_LARGEST_NUMBER_OF_PASSES // by Testing/Benchmarks, to compare
-constexpr int LargestNumberOfPasses = HAPTICS_LARGEST_NUMBER_OF_PASSES;
-#else
-constexpr int LargestNumberOfPasses = 16;
-#endif
 /// A pass meets at most a few facets; more come of rounding.
 constexpr int LargestNumberOfCasts = 12;
 /// Triangles looked up in one update, all passes and surfaces together: a few dozen in practice,
@@ -28,7 +20,7 @@ constexpr int LargestNumberOfReleases = 4;
 /// Each cast makes at most one motion, so does each release, and one more goes to what is in plain
 /// view.
 constexpr int LargestWay =
-  LargestNumberOfPasses * LargestNumberOfCasts + LargestNumberOfReleases + 2;
+  GodObject::LargestNumberOfPasses * LargestNumberOfCasts + LargestNumberOfReleases + 2;
 
 /// What a god-object does: GodObject.cxx moves it to the HIP, GodObjectMotion.cxx with surfaces
 /// that move, GodObjectRelease.cxx lets go of planes that hold where no facet is,
@@ -56,6 +48,7 @@ public:
   std::size_t Felt = 0;         ///< how many surfaces are; those that are gripped come after them
   Vector Origin{ 0 };           ///< of the scene frame, in the world
   Vector Position{ 0 };         ///< scene frame
+  int PassesAllowed = LargestNumberOfPasses;
   bool IsPlaced = false;
   bool IsOverloaded = false;
   /// Surfaces close in on the god-object and leave no place that all of them allow: each keeps a

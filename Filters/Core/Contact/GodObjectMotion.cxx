@@ -358,7 +358,7 @@ bool GodObject::Implementation::Join(const Vector& hip)
     this->Position = this->Sets[i].Frame().PointToScene(this->Sets[i].LocalPosition());
     this->Active.Clear();
     this->WaySize = 1;
-    this->PassesLeft = LargestNumberOfPasses;
+    this->PassesLeft = this->PassesAllowed;
     this->ReleasesLeft = LargestNumberOfReleases;
     this->Walk(hip);
     isTogether =

@@ -1,9 +1,40 @@
-#include "GodObjectMethod.h"
+#include "CertifiedMethod.h"
 
 namespace haptics::testing
 {
-MethodPointer MakeCertified(const SurfaceList& surfaces)
+namespace
 {
-  return std::make_unique<GodObjectMethod<GodObject>>(surfaces);
+class CertifiedMethod : public ContactMethod
+{
+public:
+  CertifiedMethod(const SurfaceList& surfaces, int passes)
+    : Touched(surfaces.begin(), surfaces.end())
+    , Passes(passes)
+  {
+    this->Forget();
+  }
+  void Place(const Vec3& position) override { this->Point->Place(position); }
+  void Forget() override
+  {
+    this->Point = std::make_unique<GodObject>(this->Touched);
+    this->Point->SetPassLimit(this->Passes);
+  }
+  Vec3 Update(const Vec3& hip) override
+  {
+    // The displacement keeps its digits; in free space it is exactly zero.
+    const Vec3& displacement = this->Point->Update(hip).Displacement;
+    return { hip[0] + displacement[0], hip[1] + displacement[1], hip[2] + displacement[2] };
+  }
+
+private:
+  std::vector<TouchedSurface> Touched;
+  int Passes;
+  std::unique_ptr<GodObject> Point;
+};
+}
+
+MethodPointer MakeCertified(const SurfaceList& surfaces, int passes)
+{
+  return std::make_unique<CertifiedMethod>(surfaces, passes);
 }
 }
