@@ -9,7 +9,7 @@
 
 namespace haptics
 {
-/// What a device tells in one servo tick.
+/// What a device reports in one servo tick.
 struct DeviceSample
 {
   std::array<double, 3> Position{}; ///< HIP, device frame [m]

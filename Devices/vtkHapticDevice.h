@@ -1,9 +1,9 @@
 /**
  * @class   vtkHapticDevice
- * @brief   a device that tells where a hand is and pulls on it: position in, force out
+ * @brief   a device that reports where a hand is and pulls on it: position in, force out
  *
- * The abstract face of every haptic device. It opens and closes the device and tells its state and
- * limits; the positions and forces themselves go through a plain channel that the servo thread
+ * The abstract face of every haptic device. It opens and closes the device and reports its state
+ * and limits; the positions and forces themselves go through a plain channel that the servo thread
  * uses (see haptics::DeviceChannel and vtkHapticServo), never through this object.
  *
  * All positions, forces and limits are in the device frame, in metres, newtons and seconds. What
@@ -130,9 +130,9 @@ public:
   int GetState() const { return this->State; }
   const char* GetStateAsString() const;
   ///@}
-  /// Why the device is Faulted or did not open, for people; empty where nothing is wrong.
+  /// Why the device is Faulted or did not open; empty where nothing is wrong.
   const char* GetErrorMessage() const { return this->ErrorMessage.c_str(); }
-  /// What goes on, for people: the error if there is one, or what opening is waiting for.
+  /// What goes on, as a message: the error if there is one, or what opening is waiting for.
   virtual const char* GetStatusMessage() const { return this->ErrorMessage.c_str(); }
 
   ///@{
@@ -207,7 +207,7 @@ protected:
   void Fail(int state, const std::string& message);
   /// For Close(): shuts the channel, becomes Closed.
   void BecomeClosed();
-  /// Changes the state and tells it; any but Closed and Faulted forgets the error.
+  /// Changes the state and reports it; any but Closed and Faulted forgets the error.
   void SetState(int state);
 
   double MaximumForce = 0.0;

@@ -62,7 +62,7 @@ public:
   /// Instead of Run(): where the geometry given to FollowOn() has the same cells, and its clean
   /// points are still those of this one, moved, gives where they are now, and is then as after
   /// Run() but for Surface(), which is null. False elsewhere, also where a coordinate is not
-  /// finite: call Run(), which tells. On any thread, once.
+  /// finite: call Run(), which reports it. On any thread, once.
   bool Follow(std::vector<Vec3>& points);
 
   CleaningResult Run(const ProgressCall& progress);

@@ -26,7 +26,7 @@
  * modification times of the vtkPoints and vtkCellArray objects; code that writes into their memory
  * has to call their Modified().
  *
- * Which side of each cell is touched, an array of the input can tell: see SetSide().
+ * Which side of each cell is touched, an array of the input can say: see SetSide().
  *
  * How the surface feels, by constants and by arrays of the input, is the business of
  * GetProperties() and SetInputArrayToProcess().
@@ -79,10 +79,10 @@ public:
     FRONT = 0,          ///< only the side that the normals point to, as in the paper
     BOTH = 1,           ///< no path crosses any triangle, from either side
     AUTOMATIC_SIDE = 2, ///< FRONT where closed, oriented and not inside out; BOTH elsewhere
-    MIXED_SIDES = 3     ///< told by GetTouchedSide() where cells differ; not to be set
+    MIXED_SIDES = 3     ///< returned by GetTouchedSide() where cells differ; not to be set
   };
 
-  /// The index for SetInputArrayToProcess() beside those of vtkHapticProperties::PropertyType.
+  /// The index for SetInputArrayToProcess() besides those of vtkHapticProperties::PropertyType.
   enum ArrayType
   {
     SIDE_ARRAY = 5 ///< of cells: a SideType each, see SetSide()
@@ -99,7 +99,7 @@ public:
   ///@{
   /**
    * @brief Which side of the triangles can be touched. Default AUTOMATIC_SIDE; other values are
-   * clamped. GetTouchedSide() tells what it came to.
+   * clamped. GetTouchedSide() returns what it came to.
    *
    * A cell array can choose for each cell, so that one mesh has closed solids that are touched from
    * their fronts, and open sheets that are touched from both sides:

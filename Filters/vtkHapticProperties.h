@@ -215,7 +215,7 @@ public:
   using ArrayChoice = std::function<ChosenArray(int property)>;
   /**
    * @brief For a surface and its geometry with arrays, point for point and triangle for triangle;
-   * null where the surface is plain. What is wrong is appended to `problems`, for people.
+   * null where the surface is plain. What is wrong is appended to `problems`.
    * `previous`: what was built for the same surface since this was changed last, or null; it is
    * returned where nothing has changed, in the arrays either. C++ only.
    */

@@ -18,7 +18,8 @@ bool AreSame(const Matrix4& a, const Matrix4& b);
 
 Vec3 Transformed(const Matrix4& matrix, const Vec3& point);
 
-/// Without the translation. Its sign tells of a mirror; 0 and what is not finite flatten or tear.
+/// Without the translation. A negative one is that of a mirror; 0 and what is not finite flatten or
+/// tear.
 double Determinant(const Matrix4& matrix);
 
 /// The rigid part of `matrix` where it is `baked` moved as a rigid body, to within 1e-9 of its

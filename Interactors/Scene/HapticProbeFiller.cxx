@@ -81,7 +81,7 @@ void vtkHapticProbeFiller::SetContact(vtkHapticProbe* probe, const haptics::Tick
     toTriangle[i] = along - tick.Local[i];
   }
   // The way to the triangle is about as short as the clearance, so a pose that is a little older
-  // or newer than the tick does as well. One that was never moved is told exactly.
+  // or newer than the tick does as well. One that was never moved is given exactly.
   const bool isMoved = touched.Pose != haptics::RigidPose();
   const haptics::Vec3 turned = touched.Pose.VectorToWorld(toTriangle);
   for (std::size_t i = 0; i < 3; ++i)

@@ -12,7 +12,7 @@ class vtkPolyData;
 class vtkHapticProbeFiller
 {
 public:
-  /// What every tick tells, with or without a contact.
+  /// What every tick has, with or without a contact.
   static void SetTick(vtkHapticProbe* probe, const haptics::TickRecord& tick);
   /// What a tick's first constraint belongs to.
   struct Touched

@@ -19,7 +19,7 @@ public:
   haptics::BackgroundWorker Worker; // outlives the surfaces that give it work
   haptics::SurfaceSet Surfaces;
   bool BackgroundBuilding = false;
-  bool WasBuilding = false; ///< as observers were told last
+  bool WasBuilding = false; ///< as observers know it
   double BuildProgress = 1.0;
   std::uint64_t Published = 0; ///< generation of the last god-object
   double LastPull = 0.0;       ///< of changed surfaces, the servo's time [s]

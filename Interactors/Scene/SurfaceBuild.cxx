@@ -43,7 +43,7 @@ bool SurfaceBuild::Deform()
   const double way = this->Shaper->LongestWay(points);
   this->JumpedBy = way > this->LargestSpeed * LongestMotion ? way : 0.0;
   const double needed = GodObject::Haste * way / this->LargestSpeed; // it may be hastened
-  std::string error; // whatever it is, building anew helps or tells
+  std::string error; // whatever it is, building anew helps or says why not
   this->Built = this->JumpedBy > 0.0
     ? this->Shaper->Replace(std::move(points), error)
     : this->Shaper->Deform(std::move(points), std::max(this->Duration, needed), error);

@@ -32,7 +32,7 @@ struct SceneCell
 /// Of an assembly every part is a surface; the assembly itself has an id too, to remove it.
 ///
 /// A god-object numbers its surfaces from 0; ids stay when others come and go. What was published
-/// is remembered until no tick can tell of it any more.
+/// is remembered until no tick can refer to it any more.
 class SurfaceSet
 {
 public:
@@ -77,7 +77,7 @@ public:
   bool HaveMoved() const;
   /// Whether a surface has changed before the servo has come to its last change.
   bool IsWaiting() const;
-  /// Whether a surface is being built beside the GUI thread.
+  /// Whether a surface is being built in the background.
   bool IsBuilding() const;
   /// 0 to 1, over all that is being built or was since nothing was; 1 where nothing is.
   double BuildProgress() const;

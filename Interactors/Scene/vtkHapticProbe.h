@@ -65,7 +65,7 @@ public:
   /** The first component of an array of either kind, points first; NaN where there is none. */
   double GetValue(const char* array);
 
-  /** Some lines for people: surface, cell, position, values. Empty where there is no contact. */
+  /** Some lines of text: surface, cell, position, values. Empty where there is no contact. */
   std::string GetText();
 
 #ifndef __VTK_WRAP__

@@ -340,7 +340,7 @@ bool vtkHapticScene::PullSurfaces()
     this->Grip->Published(generation);
     if (!this->Servo->IsRunning())
     {
-      // All records are drained: no tick can tell of older ones than the last.
+      // All records are drained: no tick can refer to older ones than the last.
       const auto& latest = this->Internal->Latest;
       surfaces.Forget(latest ? std::min(latest->Generation, generation) : generation);
     }
@@ -356,7 +356,7 @@ bool vtkHapticScene::PullSurfaces()
   if (lost >= 0)
   {
     this->Internal->Events.Add(vtkHapticScene::LetGoEvent, lost);
-    this->Internal->Events.Dispatch(this); // after a grip that waits to be told
+    this->Internal->Events.Dispatch(this); // after a grip that waits to be reported
   }
   this->TellOfBuilds();
   return changed || surfaces.HaveMoved();
@@ -554,7 +554,7 @@ bool vtkHapticScene::PullState()
     this->Internal->Surfaces.Forget(this->Internal->Latest->Generation);
   }
   this->Internal->Events.Dispatch(this);
-  // After the events, so that who is told of a grip finds the actor where it was.
+  // After the events, so that an observer of a grip finds the actor where it was.
   const bool carried = this->Grip->Carry();
   return changed || carried;
 }

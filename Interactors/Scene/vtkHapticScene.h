@@ -14,7 +14,7 @@
  *
  * Frames: surfaces, HIP and god-object are in the world frame [world unit]; device positions,
  * forces and stiffness in the device frame [m, N, N/m]. The workspace transform maps device to
- * world. Forces are also told along the world's axes, in newtons, for drawing.
+ * world. Forces are also given along the world's axes, in newtons, for drawing.
  *
  * Errors: a surface that turns out empty, without polygons or with coordinates that are not finite
  * is reported through vtkErrorMacro and GetErrorMessage(), once for each change; what was touched
@@ -73,10 +73,10 @@ public:
 
   /**
    * Invoked on the GUI thread, from Update(), Step(), Engage() and Release(), when the scene has
-   * taken in everything: the getters tell the state after the last tick, the call data what was at
-   * the event's own tick. In the order of the ticks; within one tick buttons, then contact, then
+   * taken in everything: the getters return the state after the last tick, the call data what was
+   * at the event's own tick. In the order of the ticks; within one tick buttons, then contact, then
    * overload or squeeze. What happened between two updates is not lost, but for slides, of which
-   * each update tells one at most, last. Probes are made only for events that somebody observes.
+   * each update reports one at most, last. Probes are made only for events that somebody observes.
    *
    * Python: decorate the observer with vtkmodules.util.misc.calldata_type, VTK_OBJECT (of
    * vtkmodules.util.vtkConstants) for a probe and VTK_INT for a number.
@@ -84,7 +84,7 @@ public:
   enum SceneEvents
   {
     ContactBeginEvent = vtkCommand::UserEvent + 4200, ///< vtkHapticProbe: a surface holds the hand
-    ContactEndEvent,    ///< vtkHapticProbe: none does any more; it tells the hand's free place
+    ContactEndEvent,    ///< vtkHapticProbe: none does any more; it has the free place
     SurfaceErrorEvent,  ///< no data; a surface was refused, or too fast: see GetErrorMessage()
     FaultEvent,         ///< no data; the servo stopped by itself: see GetErrorMessage()
     ContactSlideEvent,  ///< vtkHapticProbe: the god-object has moved along a surface
@@ -181,7 +181,7 @@ public:
 
   ///@{
   /**
-   * Whether a surface whose geometry has changed is cleaned and built on a thread beside, so that
+   * Whether a surface whose geometry has changed is cleaned and built in the background, so that
    * Update() and Engage() return at once. Until it is built what was touched before is touched on;
    * what changes meanwhile is built next, in its newest state. Upstream filters still run on the
    * calling thread. Default off; the viewer and ParaView turn it on.
@@ -262,7 +262,7 @@ public:
   /**
    * Starts and stops the servo thread; the device is opened where it is not, and opened again where
    * its settings have changed since (vtkHapticDevice::HasChanged()). Engage() returns
-   * whether it runs; where not, GetErrorMessage() tells why. Release() asks for zero force and
+   * whether it runs; where not, GetErrorMessage() says why. Release() asks for zero force and
    * takes in the last ticks; the device stays open.
    */
   bool Engage();

@@ -72,7 +72,8 @@ const char* Explain(int state)
       return "The device was closed or stopped answering, so the servo stopped with zero force. "
              "Open the device and start again.";
     case vtkHapticServo::InvalidPosition:
-      return "The device told a position that is not finite, so the servo stopped with zero force. "
+      return "The device reported a position that is not finite, so the servo stopped with zero "
+             "force. "
              "Check the device's calibration and start again.";
     case vtkHapticServo::InvalidForce:
       return "The god-object's displacement is not finite in the device frame, so the servo "
@@ -127,7 +128,7 @@ void vtkHapticServo::SetRate(double rate)
 {
   if (std::isnan(rate))
   {
-    vtkErrorMacro("The rate is no number; it stays " << this->Rate << " Hz.");
+    vtkErrorMacro("The rate must be a number, but is NaN; it stays " << this->Rate << " Hz.");
     return;
   }
   rate = std::clamp(rate, 50.0, 10000.0);
@@ -142,7 +143,8 @@ void vtkHapticServo::SetStallLimit(double limit)
 {
   if (std::isnan(limit))
   {
-    vtkErrorMacro("The stall limit is no number; it stays " << this->StallLimit << " s.");
+    vtkErrorMacro(
+      "The stall limit must be a number, but is NaN; it stays " << this->StallLimit << " s.");
     return;
   }
   limit = std::clamp(limit, 0.05, 60.0);
@@ -441,7 +443,7 @@ bool vtkHapticServo::Update()
   {
     this->Device->Update();
   }
-  // The state is read first, so that the record of an end is there when the state tells of it.
+  // The state is read first, so that the record of an end is there when the state says so.
   const int state = static_cast<int>(this->Internal->Cycle.GetState());
   const bool hasTicked = this->Internal->Cycle.UpdateLatest();
   this->ReportRecording();

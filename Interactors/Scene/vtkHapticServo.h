@@ -12,10 +12,10 @@
  * is called.
  *
  * Safety: the force is zero after Stop(), after destruction, while paused, when the process ends,
- * and from the very tick on in which the device is lost, tells a position that is not finite, or
+ * and from the very tick on in which the device is lost, reports a position that is not finite, or
  * in which the displacement is not finite. A watchdog takes it away while a tick is overdue; after
  * too many missed deadlines or a gap of more than StallLimit the run ends. The servo then has
- * stopped in the state that tells why, and stays so until Start() or Step(). No force is longer
+ * stopped in the state that says why, and stays so until Start() or Step(). No force is longer
  * than the device's or this object's MaximumForce, none grows faster than GetSafety() allows, and
  * no surface is stiffer than device and measured periods can hold. README.md in this folder has
  * the table.
@@ -66,7 +66,7 @@ public:
     Running,         ///< ticking on its own thread
     Stepping,        ///< Step() was called last
     DeviceLost,      ///< the device did not answer or was closed
-    InvalidPosition, ///< the device told a position that is not finite
+    InvalidPosition, ///< the device reported a position that is not finite
     InvalidForce,    ///< the displacement is not finite in the device frame
     Stalled,         ///< two ticks were more than StallLimit apart
     Overrun,         ///< more deadlines were missed than the safety's MissedTickShare
@@ -86,7 +86,7 @@ public:
   ///@}
 
   ///@{
-  /// Ticks a second [Hz]. Default 1000, clamped to 50 to 10,000; what is no number is an error and
+  /// Ticks a second [Hz]. Default 1000, clamped to 50 to 10,000; NaN is an error and
   /// changes nothing. Read by Start() and by the first Step().
   void SetRate(double rate);
   vtkGetMacro(Rate, double);
@@ -99,7 +99,7 @@ public:
   ///@}
   ///@{
   /// The longest gap between two ticks [s] that is no fault. Default 0.5, clamped to 0.05 to 60;
-  /// what is no number is an error and changes nothing. Read by Start().
+  /// NaN is an error and changes nothing. Read by Start().
   void SetStallLimit(double limit);
   vtkGetMacro(StallLimit, double);
   ///@}
@@ -229,7 +229,7 @@ public:
   vtkGetMacro(State, int);
   const char* GetStateAsString();
   ///@}
-  /// Why the servo did not start or has stopped, for people; empty where nothing is wrong.
+  /// Why the servo did not start or has stopped; empty where nothing is wrong.
   const char* GetErrorMessage() { return this->ErrorMessage.c_str(); }
   /// Whether the last Start() got real-time priority, and what to do where not; empty before.
   const char* GetPriorityNote() { return this->PriorityNote.c_str(); }
@@ -254,7 +254,7 @@ public:
 
   ///@{
   /// What kept the latest force from being the plain spring's: bits of haptics::SafetyLimit, and
-  /// their names for people; 0 and empty where nothing did.
+  /// their names; 0 and empty where nothing did.
   unsigned int GetForceLimits();
   std::string DescribeForceLimits();
   ///@}

@@ -15,7 +15,7 @@ enum class Urgency
 /// Asks for real-time priority for the calling thread. 0 where it was given, else the errno.
 int RequestRealTimePriority(Urgency urgency) noexcept;
 
-/// What came of it, for people: what it means and what to do. `result` as returned above.
+/// What came of it, as a message: what it means and what to do. `result` as returned above.
 std::string DescribePriority(int result);
 }
 

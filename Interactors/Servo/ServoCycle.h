@@ -27,7 +27,7 @@ enum class ServoState
   Running,         ///< ticking on its own thread
   Stepping,        ///< ticking in virtual time on the caller's thread
   DeviceLost,      ///< the device did not answer
-  InvalidPosition, ///< the device told a position that is not finite
+  InvalidPosition, ///< the device reported a position that is not finite
   InvalidForce,    ///< the god-object's displacement is not finite in the device frame
   Stalled,         ///< two ticks were too far apart
   Overrun,         ///< too many deadlines were missed
@@ -87,7 +87,7 @@ public:
   ///@{
   /// Servo thread.
   /// Runs a tick at `time` [s] since the start. False: a fault; no force is asked for, GetState()
-  /// tells it, and the run is over.
+  /// says which, and the run is over.
   bool Tick(double time) noexcept;
   /// Asks for zero force, and waits until the device has got it, at most 30 ms.
   void Suspend() noexcept;

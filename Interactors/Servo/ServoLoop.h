@@ -65,7 +65,7 @@ public:
   void Stop();
   /// Whether a thread was started by a process of which this one is a child by fork().
   bool IsParents() const { return this->Thread.joinable() && !this->Owner->IsHere(); }
-  /// 0 where the thread of the last start got real-time priority, else the errno that tells why
+  /// 0 where the thread of the last start got real-time priority, else the errno that says why
   /// not; meaningful where it was asked for.
   int GetPriorityResult() const { return this->PriorityResult; }
   /// How often the watchdog has halted the device in this run. Any thread.

@@ -23,7 +23,7 @@ public:
   /// Counts a period [s] and returns the stiffness to use for a wanted one [N/m].
   double Update(double period, double wanted, const SafetySettings& settings) noexcept;
   /// What periods and damping allow now [N/m]; infinite where the device's damping is not known.
-  /// `surfaceDamping`: damping by the servo beside the settings' own [N s/m].
+  /// `surfaceDamping`: damping by the servo besides the settings' own [N s/m].
   double Allowed(const SafetySettings& settings, double surfaceDamping = 0.0) const noexcept;
 
 private:

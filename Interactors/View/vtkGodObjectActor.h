@@ -8,7 +8,7 @@
  * - the spring, a thin bar between the two;
  * - the force, an arrow at the god-object;
  * - the contact, a ring on the surface around the god-object, the wider the stronger the force: it
- *   tells how strong that is where the arrow points at the viewer;
+ *   shows how strong that is where the arrow points at the viewer;
  * - the trail (off by default), the last points that the god-object went through;
  * - on request the triangles that hold it, landmarks, and a legend of the force's colours.
  *
@@ -163,7 +163,7 @@ public:
 
   ///@{
   /**
-   * Whether the force's colour tells its strength, from pale gold to crimson at ReferenceForce
+   * Whether the force's colour shows its strength, from pale gold to crimson at ReferenceForce
    * (default off: the colour of GetForceProperty()), and whether a legend of these colours is shown
    * (default off; its text needs VTK::RenderingFreeType in the program).
    */

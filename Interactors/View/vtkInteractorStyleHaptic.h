@@ -1,6 +1,6 @@
 /**
  * @class   vtkInteractorStyleHaptic
- * @brief   The trackball camera, with a haptic scene kept alive beside it.
+ * @brief   The trackball camera, that keeps a haptic scene up to date.
  *
  * Mouse and keys move the camera as in vtkInteractorStyleTrackballCamera. A repeating timer, at up
  * to MaximumFrameRate, updates the scene and renders where something has changed; nothing is
