@@ -19,7 +19,7 @@ constexpr std::array FatalSignals{
 #endif
 };
 /// Those of a crash. Never blocked: a thread that crashes then is killed at once.
-constexpr std::array CrashSignals{ SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGSYS };
+inline constexpr std::array CrashSignals{ SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGSYS };
 /// Those that stop such a process: Ctrl+Z, and a job in the background that asks its terminal.
 constexpr std::array StoppingSignals{ SIGTSTP, SIGTTIN, SIGTTOU };
 

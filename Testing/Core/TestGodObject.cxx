@@ -1,6 +1,7 @@
 // Where the god-object has to be, against closed forms. In the drawings o is the god-object and
 // x the haptic interface point (HIP). Lengths are metres.
 #include "AnalyticSurfaces.h"
+#include "ProfileSurfaces.h"
 #include "haptics/Contact/GodObject.h"
 #include "haptics/Tick/SurfaceForce.h"
 
@@ -98,21 +99,28 @@ TEST(GodObject, CrossesAConvexEdgeWithinOneTick)
   ExpectAt(contact, { 0.02, 0, 0.015 });
 }
 
-//  ----o
-//      |  x  ->  o at x: within one tick, or with one pass a tick in the next
+//      o                 o
+//   .-'x'-.    ->     .-'-.x   within one tick, or with one pass a tick within two
 TEST(GodObject, TakesTwoTicksOverAConvexEdgeWithOnePassATick)
 {
-  const Vec3 beside{ 0.0205, 0, 0.015 };
+  const double slope = std::tan(M_PI / 12.0);
+  const double depth = 0.002;
+  const auto at = [&](double x, double below) -> Vec3
+  {
+    return { x + std::copysign(below * std::sin(M_PI / 12.0), -x), 0.001,
+      -slope * std::abs(x) - below * std::cos(M_PI / 12.0) };
+  };
   for (const int passes : { -3, 1, 2, 16, 1000 }) // clamped to 1 to 16
   {
     SCOPED_TRACE(passes);
-    GodObject god({ MakeSurface(Box(0.02, 0.02, 0.02, 2)) });
+    GodObject god({ MakeSurface(Ridge(150, 0.02)) });
     god.SetPassLimit(passes);
-    god.Update({ 0.0195, 0, 0.021 });
-    god.Update({ 0.0195, 0, 0.0195 });
-    const bool isThere = god.Update(beside).Position == beside;
-    EXPECT_EQ(isThere, passes > 1);
-    EXPECT_EQ(god.Update(beside).Position, beside);
+    god.Update(at(-0.005, -depth));
+    god.Update(at(-0.005, depth));
+    const Vec3 there = at(0.005, 0.0);
+    const double farther = god.Update(at(0.005, depth)).Position[2] - there[2];
+    EXPECT_EQ(farther<1e-9, passes> 1) << farther;
+    EXPECT_NEAR(god.Update(at(0.005, depth)).Position[2], there[2], 1e-9);
   }
 }
 

@@ -191,13 +191,13 @@ TEST_F(EmergencyStop, ACrashDoesTooAndEndsTheProcessAsItWouldHave)
   const int status = EndWhilePressing(*this->Device,
     [](SharedDevice&)
     {
-      std::thread crasher(
+      std::thread other(
         []
         {
           volatile int* nowhere = nullptr;
           *nowhere = 1;
         });
-      crasher.join();
+      other.join();
     });
   EXPECT_TRUE(WIFSIGNALED(status));
   EXPECT_EQ(WTERMSIG(status), SIGSEGV);
