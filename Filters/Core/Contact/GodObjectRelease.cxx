@@ -8,9 +8,10 @@ namespace haptics
 {
 namespace
 {
-/// Planes to try: those that hold, those of facets in the way of a try, and of a goal that rests
-/// those of facets near by.
-constexpr int MostPlanes = 16;
+/// Planes to try: those that hold, and those of facets in the way of a try; of a goal that rests
+/// those of facets near by, too.
+constexpr int MostPlanes = 8;
+constexpr int MostPlanesAtRest = 16;
 /// So many clearances from the god-object is near by.
 constexpr double NearBy = 64.0;
 /// How far behind a plane a try ends, in its clearances: not so near that the next cast meets it
@@ -32,7 +33,8 @@ constexpr double SamePlace = 0.25;
 /// The planes that a god-object tries to go along.
 struct Tries
 {
-  std::array<ActivePlane, MostPlanes> Planes;
+  std::array<ActivePlane, MostPlanesAtRest> Planes;
+  int Most = MostPlanes;
   int Held = 0; ///< so many of them hold it, the first
   int Size = 0;
 
@@ -40,7 +42,7 @@ struct Tries
   {
     const bool isKnown = std::any_of(this->Planes.begin(), this->Planes.begin() + this->Size,
       [&](const ActivePlane& other) { return other.Facet == plane.Facet; });
-    if (!isKnown && this->Size < MostPlanes)
+    if (!isKnown && this->Size < this->Most)
     {
       this->Planes[this->Size++] = plane;
     }
@@ -173,6 +175,7 @@ bool GodObject::Implementation::Release(const Vector& goal)
   {
     return false;
   }
+  tries.Most = MostPlanesAtRest;
   for (std::size_t i = this->First; i < this->Last; ++i)
   {
     this->Sets[i].VisitNear(NearBy, [&](const ActivePlane& plane) { tries.Add(plane); });
