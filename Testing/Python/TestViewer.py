@@ -280,6 +280,50 @@ def test_outputs_that_cannot_be_written_are_found_before_a_surface_is_read(folde
         assert "no.stl" not in done.stderr, "before the surface"
 
 
+def test_a_device_that_is_homed_is_waited_for_and_says_so(folder):
+    class Homing(vtkhaptics.vtkSimulatedHapticDevice):
+        looks, ends = 0, None
+
+        def GetState(self):
+            return super().GetState() if self.looks > 2 else vtkhaptics.vtkHapticDevice.Homing
+
+        def GetStatusMessage(self):
+            return "push the grip in and pull it out" if self.looks < 3 else ""
+
+        def IsOpen(self):
+            return self.looks > 2 and self.ends is None
+
+        def GetErrorMessage(self):
+            return self.ends or ""
+
+        def Open(self):
+            return False
+
+        def Update(self):
+            self.looks += 1
+            shown_meanwhile.append(shown.style.GetView().GetOverlay().GetStatus())
+
+    shown_meanwhile = []
+    shown = Viewer(parse([ball(0.0, folder), "--offscreen", "--size", "200", "150"]))
+    with redirect_stdout(io.StringIO()) as said:
+        shown.add_surfaces()
+        shown.open()
+        shown.device = Homing()
+        shown._wait_for_device()
+    assert said.getvalue().count("push the grip in") == 1, said.getvalue()
+    assert set(shown_meanwhile) == {"push the grip in and pull it out"}, shown_meanwhile
+    assert shown.style.GetView().GetOverlay().GetStatus() == ""
+    shown.device = Homing()
+    shown.device.ends = "the Falcon was unplugged"
+    try:
+        with redirect_stdout(io.StringIO()):
+            shown._wait_for_device()
+    except viewer_module.ViewerError as error:
+        assert str(error) == "the Falcon was unplugged", error
+    else:
+        raise AssertionError("a device that does not open is an error")
+
+
 def test_simulated(folder):
     trace = os.path.join(folder, "s.vtp")
     done = viewer(
@@ -548,6 +592,7 @@ with tempfile.TemporaryDirectory() as scratch:
         test_the_picture_is_the_same_at_every_scale,
         test_the_examples_of_the_help,
         test_outputs_that_cannot_be_written_are_found_before_a_surface_is_read,
+        test_a_device_that_is_homed_is_waited_for_and_says_so,
         test_simulated,
         test_what_is_gripped_is_carried_in_the_picture,
         test_bad_input,

@@ -35,7 +35,8 @@ surface.Update()
 cortex = shaded.GetOutput()
 data = cortex.GetPointData()
 points, normals = (vtk_to_numpy(a) for a in (cortex.GetPoints().GetData(), data.GetNormals()))
-values = {name: data.GetArray(name) for name in value_arrays(cortex) if data.HasArray(name)}
+arrays = {n: data.GetArray(n) for n in value_arrays(cortex) if data.HasArray(n)}
+values = [name for name, array in arrays.items() if array.GetNumberOfComponents() == 1]
 
 random, rows, forces = np.random.default_rng(1), [], []
 for stroke in range(30):  # down to 2 mm below the surface, and 10 mm along it
@@ -45,14 +46,13 @@ for stroke in range(30):  # down to 2 mm below the surface, and 10 mm along it
     along = down[-1] + side * np.linspace(0.1, 10.0, 100)[:, None]
     t = vtkhaptics.trace(surface, np.vstack([down, along]), scale=0.001)
     forces.append(t.magnitude)
-    for tick in np.flatnonzero(t.touching):
-        near = cortex.FindPoint(t.god_object[tick])
-        cell = [stroke, tick, t.magnitude[tick], t.cell[tick]]
-        rows.append(cell + [array.GetComponent(near, 0) for array in values.values()])
+    # The trace has the surface's arrays, as they are where the god-object touches.
+    columns = [np.full(len(t), stroke), np.arange(len(t)), t.magnitude, t.cell, *(t[n] for n in values)]
+    rows.append(np.column_stack(columns)[t.touching])
 folder = sys.argv[2] if len(sys.argv) > 2 else tempfile.mkdtemp()
 names = ",".join(["stroke", "tick", "force", "cell", *map(text_cell, values)])
 with whole_file(os.path.join(folder, "palpation.csv")) as file:
-    np.savetxt(file, rows, "%.9g", ",", header=names, comments="")
-print(f"{len(rows)} ticks in contact, up to {np.max(forces):.2f} N: {folder}/palpation.csv")
+    np.savetxt(file, np.vstack(rows), "%.9g", ",", header=names, comments="")
+print(f"{sum(map(len, rows))} ticks in contact, up to {np.max(forces):.2f} N: {folder}/palpation.csv")
 assert np.min(np.max(forces, axis=1)) > 0.05, "every stroke touches"
 lines(os.path.join(folder, "palpation.png"), "tick", "force [N]", forces)
