@@ -272,6 +272,12 @@ void SurfaceSet::Forget(std::uint64_t generation)
   this->Generations.erase(this->Generations.begin(), this->Generations.lower_bound(generation));
 }
 
+void SurfaceSet::ForgetAllBut(std::uint64_t generation)
+{
+  this->Forget(generation);
+  this->Generations.erase(this->Generations.upper_bound(generation), this->Generations.end());
+}
+
 const SurfaceSet::Entry* SurfaceSet::Find(const TickRecord& tick, int constraint) const
 {
   const auto generation = this->Generations.find(tick.Generation);

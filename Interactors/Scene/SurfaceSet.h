@@ -91,6 +91,8 @@ public:
   void Published(std::uint64_t generation);
   /// Forgets what was published before `generation`.
   void Forget(std::uint64_t generation);
+  /// Forgets what was published before or after `generation`.
+  void ForgetAllBut(std::uint64_t generation);
 
   /// What the first constraint of a tick belongs to.
   SceneCell Locate(const TickRecord& tick) const;

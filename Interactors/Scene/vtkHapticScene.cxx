@@ -340,9 +340,10 @@ bool vtkHapticScene::PullSurfaces()
     this->Grip->Published(generation);
     if (!this->Servo->IsRunning())
     {
-      // All records are drained: no tick can refer to older ones than the last.
+      // All records are drained: no tick can refer to others than the last, and what the servo has
+      // not taken since was dropped.
       const auto& latest = this->Internal->Latest;
-      surfaces.Forget(latest ? std::min(latest->Generation, generation) : generation);
+      surfaces.ForgetAllBut(latest ? latest->Generation : generation);
     }
     surfaces.Published(generation);
   }
