@@ -8,14 +8,17 @@
 #include "pqHapticsRecorder.h"
 #include "vtkCommand.h"
 #include "vtkGodObjectFilter.h"
+#include "vtkHapticDevice.h"
 #include "vtkHapticLandmarks.h"
 #include "vtkHapticScene.h"
 #include "vtkHapticServo.h"
+#include "vtkNew.h"
 #include "vtkPVHapticScene.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
 #include "vtkStringArray.h"
 
+#include <QApplication>
 #include <QFileInfo>
 #include <QHeaderView>
 #include <QLocale>
@@ -27,9 +30,11 @@
 
 namespace
 {
-constexpr int TextInterval = 100;      // [ms]; nobody reads faster
-constexpr double WorkspaceStep = 1.25; // of Finer and Coarser
-constexpr const char* ChooseFile = ""; // the device chooser's entry that asks for a file
+constexpr int TextInterval = 100;        // [ms]; nobody reads faster
+constexpr double WorkspaceStep = 1.25;   // of Finer and Coarser
+constexpr const char* ChooseFile = "";   // the device chooser's entry that asks for a file
+constexpr const char* FindDevices = ":"; // that which looks what is plugged in
+constexpr int LastEntries = 2;           // these two
 constexpr const char* PlayedFilter = "Haptic recordings (*.hrec);;Paths (*.vtp);;All files (*)";
 
 QString number(double value, int digits)
@@ -74,9 +79,15 @@ pqHapticsPanel::pqHapticsPanel(QWidget* parent, Qt::WindowFlags flags)
     content->minimumSizeHint().width() + scrolled->verticalScrollBar()->sizeHint().width());
   this->setWidget(scrolled);
 
-  this->Form->device->addItem("Mouse", "mouse");
-  this->Form->device->addItem("Simulated stroke", "simulated");
-  this->Form->device->addItem("Novint Falcon", "falcon");
+  vtkNew<vtkStringArray> names;
+  vtkNew<vtkStringArray> titles;
+  vtkHapticDevice::GetKnownNames(names, titles);
+  for (vtkIdType i = 0; i < names->GetNumberOfValues(); ++i)
+  {
+    this->Form->device->addItem(
+      QString::fromStdString(titles->GetValue(i)), QString::fromStdString(names->GetValue(i)));
+  }
+  this->Form->device->addItem("Find devices...", FindDevices);
   this->Form->device->addItem("Recording...", ChooseFile);
   QTableWidget* values = this->Form->values;
   values->horizontalHeader()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
@@ -186,10 +197,40 @@ void pqHapticsPanel::chooseDevice(int index)
   {
     this->chooseRecording();
   }
+  else if (name == FindDevices)
+  {
+    this->findDevices();
+  }
   else
   {
     this->Manager->setDevice(name);
   }
+}
+
+/// Adds what is plugged in to the chooser, each entry with its state beside it, and shows them.
+void pqHapticsPanel::findDevices()
+{
+  QComboBox* chooser = this->Form->device;
+  vtkNew<vtkStringArray> names;
+  vtkNew<vtkStringArray> states;
+  QApplication::setOverrideCursor(Qt::WaitCursor);
+  vtkHapticDevice::ListDevices(names, states);
+  QApplication::restoreOverrideCursor();
+  for (vtkIdType i = 0; i < names->GetNumberOfValues(); ++i)
+  {
+    const QString name = QString::fromStdString(names->GetValue(i));
+    int index = chooser->findData(name);
+    if (index < 0)
+    {
+      const int kind = chooser->findData(name.section(':', 0, 0));
+      index = kind + 1; // below its kind
+      chooser->insertItem(
+        index, QString("%1: %2").arg(chooser->itemText(kind), name.section(':', 1)), name);
+    }
+    chooser->setItemData(index, QString::fromStdString(states->GetValue(i)), Qt::ToolTipRole);
+  }
+  this->showDevice();
+  chooser->showPopup();
 }
 
 /// The hand is at the client, so its files are.
@@ -265,7 +306,7 @@ void pqHapticsPanel::showDevice()
   int index = chooser->findData(device);
   if (index < 0)
   {
-    index = chooser->count() - 1; // before the entry that asks for a file
+    index = chooser->count() - LastEntries;
     chooser->insertItem(index, QFileInfo(device).fileName(), device);
   }
   chooser->setCurrentIndex(index);

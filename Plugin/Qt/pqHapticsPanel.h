@@ -42,6 +42,7 @@ private:
   void connectSettings();
   void connectCommands();
   void chooseDevice(int index);
+  void findDevices();
   void chooseRecording();
   void scale(double factor);
   void showDevice();

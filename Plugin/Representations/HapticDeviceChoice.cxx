@@ -2,16 +2,13 @@
 
 #include "vtkBoundingBox.h"
 #include "vtkDataArray.h"
-#include "vtkFalconHapticDevice.h"
 #include "vtkHapticScene.h"
 #include "vtkMath.h"
 #include "vtkMatrix4x4.h"
-#include "vtkMouseHapticDevice.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkRecordedHapticDevice.h"
-#include "vtkSimulatedHapticDevice.h"
 #include "vtkXMLPolyDataReader.h"
 
 #include <vtksys/SystemTools.hxx>
@@ -27,7 +24,8 @@ constexpr int StrokeSamples = 400;       // rays cast to find a stroke
 constexpr double StrokeShare = 0.35;     // of the workspace's half extent that a stroke covers
 constexpr double StrokeDepth = 0.006;    // below the surface [m]
 constexpr double StrokeClearance = 0.02; // above it before and after [m]
-constexpr double StrokeSpeed = 0.05;     // [m/s]
+constexpr double StrokeSpeed = 0.05;     // [m/s], where a path has no times
+constexpr const char* PathFollower = "simulated";
 
 vtkSmartPointer<vtkPolyData> Polyline(vtkPoints* points, vtkDataArray* time)
 {
@@ -44,25 +42,16 @@ vtkSmartPointer<vtkPolyData> Polyline(vtkPoints* points, vtkDataArray* time)
 DeviceChoice DeviceChoice::Make(const std::string& name, std::string& error)
 {
   DeviceChoice choice;
-  if (name == "mouse")
+  const std::string problem = vtkHapticDevice::GetNameProblem(name.c_str());
+  if (problem.empty())
   {
-    choice.Mouse = vtkSmartPointer<vtkMouseHapticDevice>::New();
-    choice.Chosen = choice.Mouse;
-  }
-  else if (name == "falcon")
-  {
-    choice.Chosen = vtkSmartPointer<vtkFalconHapticDevice>::New();
-  }
-  else if (name == "simulated")
-  {
-    choice.Simulated = vtkSmartPointer<vtkSimulatedHapticDevice>::New();
-    choice.Chosen = choice.Simulated;
-    choice.MakesStroke = true;
+    choice.Chosen =
+      vtkSmartPointer<vtkHapticDevice>::Take(vtkHapticDevice::CreateByName(name.c_str()));
+    choice.MakesStroke = choice.Chosen->NeedsPath();
   }
   else if (!vtksys::SystemTools::FileExists(name, true))
   {
-    error = "'" + name +
-      "' is neither a device (mouse, simulated, falcon) nor a file with a recording or a path.";
+    error = "'" + name + "' is neither a device nor a file with a recording or a path. " + problem;
   }
   else if (vtksys::SystemTools::GetFilenameLastExtension(name) != ".vtp")
   {
@@ -79,8 +68,8 @@ DeviceChoice DeviceChoice::Make(const std::string& name, std::string& error)
   }
   else if (choice.ReadPath(name, error))
   {
-    choice.Simulated = vtkSmartPointer<vtkSimulatedHapticDevice>::New();
-    choice.Chosen = choice.Simulated;
+    choice.Chosen =
+      vtkSmartPointer<vtkHapticDevice>::Take(vtkHapticDevice::CreateByName(PathFollower));
   }
   return choice;
 }
@@ -162,21 +151,16 @@ bool DeviceChoice::MakeStroke(vtkHapticScene* scene)
   }
   points->InsertNextPoint(last);
   this->Path = Polyline(points, nullptr);
-  this->Simulated->SetSpeed(StrokeSpeed);
-  this->Simulated->LoopOn();
   return true;
 }
 
 void DeviceChoice::FollowPath(vtkMatrix4x4* deviceToWorld)
 {
-  if (this->Mouse)
+  if (this->Chosen)
   {
-    // It has no place of its own, and what is new is approached from the front.
-    const double* reach = this->Mouse->GetWorkspaceBounds();
-    this->Mouse->Close();
-    this->Mouse->SetTarget(0.5 * (reach[0] + reach[1]), 0.5 * (reach[2] + reach[3]), reach[5]);
+    this->Chosen->StartInFront(); // what is new is approached from there
   }
-  if (!this->Simulated || !this->Path)
+  if (!this->Path)
   {
     return;
   }
@@ -191,8 +175,7 @@ void DeviceChoice::FollowPath(vtkMatrix4x4* deviceToWorld)
     toDevice->MultiplyPoint(point, point);
     points->InsertNextPoint(point);
   }
-  this->Simulated->Close();
-  this->Simulated->SetPath(Polyline(points, this->Path->GetPointData()->GetArray("Time")));
-  this->Simulated->SetMotionToPolyline();
+  this->Chosen->FollowPath(
+    Polyline(points, this->Path->GetPointData()->GetArray("Time")), StrokeSpeed, this->MakesStroke);
 }
 }

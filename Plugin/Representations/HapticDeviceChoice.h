@@ -2,9 +2,7 @@
 #define Haptics_HapticDeviceChoice_h
 
 #include "vtkHapticDevice.h"
-#include "vtkMouseHapticDevice.h"
 #include "vtkPolyData.h"
-#include "vtkSimulatedHapticDevice.h"
 #include "vtkSmartPointer.h"
 
 #include <string>
@@ -20,10 +18,10 @@ namespace haptics
 class DeviceChoice
 {
 public:
-  /// `name`: mouse, simulated, falcon, or a file. A file that ends in .vtp holds the path of a hand
-  /// in the world frame: its points, or its point array HapticInterfacePoint [world unit] if it
-  /// has one, at the times of its point array Time [s] if it has one; any other file is a
-  /// recording of vtkHapticServo. Where it is none of them, Device() is null and `error` tells why.
+  /// `name`: of vtkHapticDevice::CreateByName(), or a file. A file that ends in .vtp holds the path
+  /// of a hand in the world frame: its points, or its point array HapticInterfacePoint [world unit]
+  /// if it has one, at the times of its point array Time [s] if it has one; any other file is a
+  /// recording of vtkHapticServo. Where it is none of them, Device() is null and `error` says why.
   static DeviceChoice Make(const std::string& name, std::string& error);
 
   vtkHapticDevice* Device() const { return this->Chosen; }
@@ -45,8 +43,6 @@ private:
   bool ReadPath(const std::string& file, std::string& error);
 
   vtkSmartPointer<vtkHapticDevice> Chosen;
-  vtkSmartPointer<vtkMouseHapticDevice> Mouse;         ///< where that was chosen, else null
-  vtkSmartPointer<vtkSimulatedHapticDevice> Simulated; ///< likewise
   vtkSmartPointer<vtkPolyData> Path;
   bool MakesStroke = false;
 };

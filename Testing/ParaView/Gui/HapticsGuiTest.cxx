@@ -226,6 +226,22 @@ void HapticsGuiTest::undoTakesTheFilterBack()
   QCOMPARE(count(), before + 1);
 }
 
+void HapticsGuiTest::findingDevicesShowsTheirStates()
+{
+  auto* chooser = find<QComboBox>("device");
+  const int falcon = chooser->findData("falcon");
+  QVERIFY(falcon >= 0);
+  QVERIFY(chooser->findData("simulated") >= 0);
+  const QString before = chooser->currentText();
+  const int last = chooser->findText("Find devices...");
+  QVERIFY(last >= 0);
+  Q_EMIT chooser->activated(last);
+  chooser->hidePopup();
+  const QString state = chooser->itemData(chooser->findData("falcon"), Qt::ToolTipRole).toString();
+  QVERIFY2(state.contains("plugged in"), qPrintable(state));
+  QCOMPARE(chooser->currentText(), before);
+}
+
 void HapticsGuiTest::aDeviceThatIsNotThereTellsSo()
 {
   makeWaveletContour();

@@ -24,6 +24,7 @@ private Q_SLOTS:
   void undoTakesTouchBack();
   void undoTakesTheFilterBack();
   void aDeviceThatIsNotThereTellsSo();
+  void findingDevicesShowsTheirStates();
 
   // HapticsGuiTestPanel.cxx: the panel, and what goes on beside
   void theTimerRestsWhileReleased();
