@@ -4,6 +4,7 @@
 #include "haptics/Filters/FlatTriangles.h"
 #include "haptics/Filters/PointMerger.h"
 #include "haptics/Filters/PolygonSplitter.h"
+#include "haptics/Math/AccurateCross.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
@@ -265,12 +266,21 @@ bool Cleaner::MergePoints()
   return true;
 }
 
+/// Whether a triangle has an area that rounding relative to the origin may have lost: the surface
+/// keeps it.
+bool HasAccurateArea(const Vec3& a, const Vec3& b, const Vec3& c)
+{
+  return SquaredLength(AccurateCross(ToVector(a), ToVector(b), ToVector(c))) > 0.0;
+}
+
 /// Adds the triangle of three input points.
 void Cleaner::AddTriangle(vtkIdType cell, const Triangle& points)
 {
   const Triangle triangle{ this->Merged[points[0]], this->Merged[points[1]],
     this->Merged[points[2]] };
-  if (!HasArea(this->Local[triangle[0]], this->Local[triangle[1]], this->Local[triangle[2]]))
+  const std::vector<Vec3>& world = this->Cleaned.Mesh.Points;
+  if (!HasArea(this->Local[triangle[0]], this->Local[triangle[1]], this->Local[triangle[2]]) &&
+    !HasAccurateArea(world[triangle[0]], world[triangle[1]], world[triangle[2]]))
   {
     ++this->Cleaned.Report.DegenerateTriangles;
     if (triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0])

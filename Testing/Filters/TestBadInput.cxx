@@ -1,4 +1,5 @@
 #include "FilterTesting.h"
+#include "haptics/Math/AccurateCross.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCellData.h"
@@ -14,6 +15,7 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
 
 using namespace testing_surfaces;
 
@@ -199,4 +201,42 @@ TEST(BadInput, AnAbortLeavesNothingHalfDone)
   filter->Modified();
   filter->Update();
   EXPECT_TRUE(filter->GetSurface());
+}
+
+// A triangle whose third corner was worked out on the edge of the others is no line: the filter
+// keeps it, and so does the surface.
+TEST(GodObjectFilter, KeepsATriangleAsThinAsRounding)
+{
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  int kept = 0;
+  for (int i = 0; i < 400; ++i)
+  {
+    Parts needle;
+    needle.Points.resize(3);
+    needle.Polys = { { 0, 1, 2 } };
+    const double share = uniform(random);
+    haptics::Vector corners[3];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double a = normal(random);
+      const double b = normal(random);
+      const double corner[3] = { a, b, a + share * (b - a) };
+      for (int k = 0; k < 3; ++k)
+      {
+        needle.Points[k][axis] = corner[k];
+        corners[k][axis] = corner[k];
+      }
+    }
+    const haptics::Vector cross = haptics::AccurateCross(corners[0], corners[1], corners[2]);
+    vtkNew<vtkGodObjectFilter> filter;
+    const MessageCatcher messages(filter);
+    filter->SetInputData(MakePolyData(needle));
+    filter->Update();
+    const bool hasArea = haptics::SquaredLength(cross) > 0.0;
+    EXPECT_EQ(filter->GetSurface() != nullptr, hasArea) << i << ": " << messages.Errors();
+    kept += hasArea;
+  }
+  EXPECT_GT(kept, 300);
 }
