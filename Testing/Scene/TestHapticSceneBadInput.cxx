@@ -9,6 +9,7 @@
 #include "vtkGodObjectFilter.h"
 #include "vtkHapticProbe.h"
 #include "vtkImageData.h"
+#include "vtkMatrix4x4.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPoints.h"
 #include "vtkPolyDataMapper.h"
@@ -274,4 +275,70 @@ TEST(HapticSceneBadInput, AFilterMayOutliveItsSurfaceAndFail)
   filter->SetInputData(withoutPolygons);
   filter->Update();
   EXPECT_EQ(errors.Count, 1);
+}
+
+/// Each call fails with a message, does what that says, and succeeds with none.
+TEST(HapticSceneBadInput, WhatAMessageAdvisesHelps)
+{
+  struct Advice
+  {
+    const char* Words;
+    std::function<bool(vtkHapticScene*)> Call;
+    std::function<void(LedHand&)> Follow;
+  };
+  const auto setScale = [](vtkHapticScene* scene, double x, double y)
+  {
+    vtkNew<vtkMatrix4x4> matrix;
+    matrix->SetElement(0, 0, x);
+    matrix->SetElement(1, 1, y);
+    return scene->SetWorkspaceTransform(matrix);
+  };
+  int ticks = 0;
+  double scale = 0.0;
+  double mirror = -1.0;
+  const Advice advices[] = {
+    { "Give 1 or more ticks", [&](vtkHapticScene* scene) { return scene->Step(ticks) == 1; },
+      [&](LedHand&) { ticks = 1; } },
+    { "Call Release() first", [](vtkHapticScene* scene) { return scene->Step(1) == 1; },
+      [](LedHand& hand) { hand.Scene->Release(); } },
+    { "Call SetDevice() first", [](vtkHapticScene* scene) { return scene->Step(1) == 1; },
+      [](LedHand& hand) { hand.Scene->SetDevice(hand.Device); } },
+    { "no surface that can be touched. Add one",
+      [](vtkHapticScene* scene) { return scene->FitWorkspace(); },
+      [](LedHand& hand) { hand.Scene->AddSurface(MakeTable(0.0)); } },
+    { "Touch a surface first", [](vtkHapticScene* scene) { return scene->DropLandmark() == 0; },
+      [](LedHand& hand)
+      {
+        hand.Scene->AddSurface(MakeTable(0.0));
+        hand.MoveTo(0.01);
+        hand.MoveTo(-0.001);
+      } },
+    { "Give a finite factor > 0",
+      [&](vtkHapticScene* scene) { return scene->ScaleWorkspace(scale); },
+      [&](LedHand&) { scale = 2.0; } },
+    { "The last one stays", [&](vtkHapticScene* scene) { return setScale(scene, mirror, 1.0); },
+      [&](LedHand&) { mirror = 1.0; } },
+  };
+  for (const Advice& advice : advices)
+  {
+    const std::string words = advice.Words;
+    LedHand hand;
+    if (words == "Call Release() first")
+    {
+      ASSERT_TRUE(hand.EngagePatiently()) << hand.Scene->GetErrorMessage();
+    }
+    if (words == "Call SetDevice() first")
+    {
+      hand.Scene->SetDevice(nullptr);
+    }
+    EventCounter errors(hand.Scene, vtkCommand::ErrorEvent);
+    EXPECT_FALSE(advice.Call(hand.Scene)) << words;
+    EXPECT_EQ(errors.Count, 1) << words;
+    const std::string message = hand.Scene->GetErrorMessage();
+    EXPECT_NE(message.find(words), std::string::npos) << words << " is not in: " << message;
+    advice.Follow(hand);
+    EXPECT_TRUE(advice.Call(hand.Scene)) << words << ": " << hand.Scene->GetErrorMessage();
+    EXPECT_EQ(errors.Count, 1) << words;
+    EXPECT_STREQ(hand.Scene->GetErrorMessage(), "") << words;
+  }
 }
