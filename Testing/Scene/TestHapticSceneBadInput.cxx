@@ -296,7 +296,7 @@ TEST(HapticSceneBadInput, WhatAMessageAdvisesHelps)
   int ticks = 0;
   double scale = 0.0;
   double mirror = -1.0;
-  const Advice advices[] = {
+  const Advice cases[] = {
     { "Give 1 or more ticks", [&](vtkHapticScene* scene) { return scene->Step(ticks) == 1; },
       [&](LedHand&) { ticks = 1; } },
     { "Call Release() first", [](vtkHapticScene* scene) { return scene->Step(1) == 1; },
@@ -319,7 +319,7 @@ TEST(HapticSceneBadInput, WhatAMessageAdvisesHelps)
     { "The last one stays", [&](vtkHapticScene* scene) { return setScale(scene, mirror, 1.0); },
       [&](LedHand&) { mirror = 1.0; } },
   };
-  for (const Advice& advice : advices)
+  for (const Advice& advice : cases)
   {
     const std::string words = advice.Words;
     LedHand hand;
