@@ -213,7 +213,6 @@ std::shared_ptr<const TriangleSurface> SurfaceDeformer::Make(
   const TriangleSurface& from = *this->Current;
   std::shared_ptr<TriangleSurface> next(new TriangleSurface);
   next->SurfaceOrigin = from.SurfaceOrigin;
-  next->SurfaceDiagonal = from.SurfaceDiagonal;
   next->Shared = from.Shared;
   next->CrackWidth = from.CrackWidth;
   next->Touched = from.Touched;
@@ -228,6 +227,18 @@ std::shared_ptr<const TriangleSurface> SurfaceDeformer::Make(
   {
     p = ToVec3(WithoutNegligible(ToVector(p) - origin, NegligibleShare * from.SurfaceRadius));
   }
+  Vector low(HUGE_VAL);
+  Vector high(-HUGE_VAL);
+  for (const Triangle& triangle : from.Triangles())
+  {
+    for (const std::int32_t corner : triangle)
+    {
+      const Vector point = ToVector(points[static_cast<std::size_t>(corner)]);
+      low = glm::min(low, point);
+      high = glm::max(high, point);
+    }
+  }
+  next->SurfaceDiagonal = glm::length(high - low);
   next->LocalPoints = std::make_shared<const std::vector<Vec3>>(std::move(points));
   if (!next->Measure(&from))
   {

@@ -84,7 +84,7 @@ public:
   /// No point is farther from Origin(): half the diagonal of the bounds, and their middle's
   /// distance from there. [world unit]
   double Radius() const { return this->SurfaceRadius; }
-  /// Diagonal of the bounds, as it was built. [world unit]
+  /// Diagonal of the bounds, where it has come to rest. [world unit]
   double Diagonal() const { return this->SurfaceDiagonal; }
   /// Across each edge of each triangle: the neighbour, BoundaryEdge or NonManifoldEdge.
   const Neighbours& AdjacentTriangles() const { return this->Shared->Adjacent; }
