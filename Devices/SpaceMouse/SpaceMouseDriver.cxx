@@ -1,9 +1,9 @@
 #include "haptics/Devices/SpaceMouse/SpaceMouseDriver.h"
 
 #include "haptics/Devices/Driver/ForceExchange.h"
+#include "haptics/Devices/SpaceMouse/SpnavLibrary.h"
 
 #include <poll.h>
-#include <spnav.h>
 #include <sys/socket.h>
 
 #include <algorithm>
@@ -58,12 +58,13 @@ SpaceMouseDriver::SpaceMouseDriver(const SpaceMouseMotion& motion)
 
 void SpaceMouseDriver::Connect()
 {
+  const SpnavLibrary& library = SpnavLibrary::Get();
   if (IsConnectionTaken.exchange(true))
   {
     throw DeviceFault("Another device object of this program has the SpaceMouse. Close that one, "
                       "then open this.");
   }
-  if (spnav_open() < 0)
+  if (library.Open() < 0)
   {
     IsConnectionTaken.store(false);
     throw DeviceFault("The SpaceMouse's daemon does not run. Install and start spacenavd (Debian: "
@@ -75,12 +76,12 @@ void SpaceMouseDriver::Connect()
 /// Empty where the daemon is too old to report it. Throws where nothing is plugged in.
 std::string SpaceMouseDriver::ReadName() const
 {
-  if (spnav_protocol() < 1)
+  if (SpnavLibrary::Get().Protocol() < 1)
   {
     return "";
   }
   std::array<char, 128> name{};
-  if (spnav_dev_name(name.data(), static_cast<int>(name.size()) - 1) < 0)
+  if (SpnavLibrary::Get().DeviceName(name.data(), static_cast<int>(name.size()) - 1) < 0)
   {
     throw DeviceFault("The SpaceMouse's daemon runs, but no SpaceMouse is plugged in. Connect it, "
                       "then open it again.");
@@ -124,10 +125,11 @@ void SpaceMouseDriver::Open(DriverContext& context)
 
 void SpaceMouseDriver::ReadEvents()
 {
+  const SpnavLibrary& library = SpnavLibrary::Get();
   spnav_event event;
   for (int i = 0; i < MostEvents; ++i)
   {
-    switch (spnav_poll_event(&event))
+    switch (library.PollEvent(&event))
     {
       case SPNAV_EVENT_MOTION:
         this->Deflection = { event.motion.x, event.motion.y, event.motion.z };
@@ -146,7 +148,7 @@ void SpaceMouseDriver::ReadEvents()
         }
         break;
       case 0:
-        if (HasEnded(spnav_fd()))
+        if (HasEnded(library.Socket()))
         {
           throw DeviceFault("The SpaceMouse's daemon has ended. Start spacenavd, then open the "
                             "SpaceMouse again.");
@@ -197,7 +199,7 @@ void SpaceMouseDriver::Close() noexcept
 {
   if (std::exchange(this->IsConnected, false))
   {
-    spnav_close();
+    SpnavLibrary::Get().Close();
     IsConnectionTaken.store(false);
   }
 }
