@@ -7,11 +7,12 @@ namespace haptics
 {
 namespace
 {
-/// Made by whichever device registers first, before main().
+/// Made by whichever device registers first, before main(), and never destroyed: a device of another
+/// library may be forgotten after everything else.
 std::map<std::string, DeviceKind>& Known()
 {
-  static std::map<std::string, DeviceKind> known;
-  return known;
+  static auto* const known = new std::map<std::string, DeviceKind>;
+  return *known;
 }
 }
 
