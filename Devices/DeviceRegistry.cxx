@@ -7,8 +7,8 @@ namespace haptics
 {
 namespace
 {
-/// Made by whichever device registers first, before main(), and never destroyed: a device of another
-/// library may be forgotten after everything else.
+/// Made by whichever device registers first, before main(), and never destroyed: a device of
+/// another library may be forgotten after everything else.
 std::map<std::string, DeviceKind>& Known()
 {
   static auto* const known = new std::map<std::string, DeviceKind>;
