@@ -13,6 +13,7 @@
 #include <json/json.h>
 
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
 
 namespace asio = boost::asio;
@@ -29,14 +30,17 @@ struct FakeHaplyService::Connections
   std::vector<std::thread> Threads;                  ///< the accepting thread's
 };
 
-FakeHaplyService::FakeHaplyService(std::string version)
+FakeHaplyService::FakeHaplyService(std::string version, int port)
   : Version(std::move(version))
   , Self(std::make_unique<Connections>())
 {
   tcp::acceptor& acceptor = this->Self->Acceptor;
-  const tcp::endpoint any(asio::ip::address_v4::loopback(), 0);
-  acceptor.open(any.protocol());
-  acceptor.bind(any);
+  const tcp::endpoint place(
+    asio::ip::address_v4::loopback(), static_cast<std::uint16_t>(port));
+  acceptor.open(place.protocol());
+  // Where one has just ended.
+  acceptor.set_option(tcp::acceptor::reuse_address(true));
+  acceptor.bind(place);
   acceptor.listen();
   this->Port = acceptor.local_endpoint().port();
 }

@@ -27,8 +27,8 @@ struct FakeInverse3
 class FakeHaplyService
 {
 public:
-  /// Takes a port; answers from Start() on.
-  explicit FakeHaplyService(std::string version = "3.5.0.0");
+  /// Takes a port, a free one where it is 0; answers from Start() on.
+  explicit FakeHaplyService(std::string version = "3.5.0.0", int port = 0);
   ~FakeHaplyService();
   FakeHaplyService(const FakeHaplyService&) = delete;
   FakeHaplyService& operator=(const FakeHaplyService&) = delete;

@@ -382,13 +382,17 @@ TEST_F(Haply, AServiceThatEndsIsSaidAndOneThatComesBackIsTakenAgain)
   service->Stop();
   EXPECT_TRUE(WaitFor([this] { return !this->Exchange(); }));
   EXPECT_TRUE(WaitForFault(this->Device));
-  service = std::make_unique<FakeHaplyService>();
+  const int port = service->GetPort();
+  service.reset();
+  service = std::make_unique<FakeHaplyService>("3.5.0.0", port);
   service->Start();
-  // Another port: what the user sets is read by Open(); so this tries what a restart is.
-  this->Device->Close();
-  this->Device->SetPort(service->GetPort());
-  this->Device->Open();
-  EXPECT_TRUE(WaitUntilOpen(this->Device));
+  EXPECT_TRUE(WaitFor(
+    [this]
+    {
+      this->Device->Update();
+      return this->Device->IsOpen();
+    }))
+    << "by itself";
   service->With([](auto& devices) { devices[0].IsPowered = false; });
   EXPECT_TRUE(WaitFor(
     [this]
