@@ -35,8 +35,7 @@ FakeHaplyService::FakeHaplyService(std::string version, int port)
   , Self(std::make_unique<Connections>())
 {
   tcp::acceptor& acceptor = this->Self->Acceptor;
-  const tcp::endpoint place(
-    asio::ip::address_v4::loopback(), static_cast<std::uint16_t>(port));
+  const tcp::endpoint place(asio::ip::address_v4::loopback(), static_cast<std::uint16_t>(port));
   acceptor.open(place.protocol());
   // Where one has just ended.
   acceptor.set_option(tcp::acceptor::reuse_address(true));
