@@ -131,10 +131,8 @@ std::string WriteTraceCSV(vtkPolyData* trace, const char* file)
   stream.imbue(std::locale::classic());
   WriteTable(trace, stream);
   const std::string text = stream.str();
-  OutputFile output;
   std::string error;
-  if (!output.Open(file ? file : "", error) || !output.Write(text.data(), text.size(), error) ||
-    !output.Sync(error) || !output.Publish(error) || !output.Close(error))
+  if (!OutputFile::WriteWhole(file ? file : "", text.data(), text.size(), error))
   {
     return "The trace " + error;
   }

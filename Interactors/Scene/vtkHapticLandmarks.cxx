@@ -429,10 +429,8 @@ bool vtkHapticLandmarks::WriteCSV(const char* file)
     stream << "\r\n";
   }
   const std::string text = stream.str();
-  haptics::OutputFile output;
   std::string error;
-  if (!output.Open(file ? file : "", error) || !output.Write(text.data(), text.size(), error) ||
-    !output.Sync(error) || !output.Publish(error) || !output.Close(error))
+  if (!haptics::OutputFile::WriteWhole(file ? file : "", text.data(), text.size(), error))
   {
     vtkErrorMacro("The landmarks' file " << error);
     return false;

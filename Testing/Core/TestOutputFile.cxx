@@ -58,10 +58,8 @@ public:
   /// Empty, or the error.
   static std::string Replace(const std::string& name, const std::string& text)
   {
-    OutputFile file;
     std::string error;
-    if (file.Open(name, error) && file.Write(text.data(), text.size(), error) && file.Sync(error) &&
-      file.Publish(error) && file.Close(error))
+    if (OutputFile::WriteWhole(name, text.data(), text.size(), error))
     {
       return "";
     }

@@ -29,10 +29,8 @@ public:
   ~Table()
   {
     std::fclose(this->Stream);
-    haptics::OutputFile file;
     std::string error;
-    if (!file.Open(this->Name, error) || !file.Write(this->Text, this->Size, error) ||
-      !file.Sync(error) || !file.Publish(error) || !file.Close(error))
+    if (!haptics::OutputFile::WriteWhole(this->Name, this->Text, this->Size, error))
     {
       std::fprintf(stderr, "%s\n", error.c_str());
       std::exit(1);

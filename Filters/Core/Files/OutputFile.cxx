@@ -231,6 +231,14 @@ bool OutputFile::Sync(std::string& error)
   return fsync(this->Descriptor) == 0 || this->Fail(errno, error);
 }
 
+bool OutputFile::WriteWhole(
+  const std::string& fileName, const void* bytes, std::size_t size, std::string& error)
+{
+  OutputFile file;
+  return file.Open(fileName, error) && file.Write(bytes, size, error) && file.Sync(error) &&
+    file.Publish(error) && file.Close(error);
+}
+
 bool OutputFile::Publish(std::string& error)
 {
   if (std::rename(this->Partial.c_str(), this->Target.c_str()) != 0)

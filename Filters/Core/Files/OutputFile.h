@@ -29,6 +29,10 @@ public:
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
+  /// All of a file at once, from Open() to Close().
+  static bool WriteWhole(
+    const std::string& fileName, const void* bytes, std::size_t size, std::string& error);
+
   bool Open(const std::string& fileName, std::string& error);
   bool IsOpen() const { return this->Descriptor >= 0; }
   /// Appends bytes, before or after Publish(). After a failure GetSize() bytes are written.
