@@ -193,6 +193,12 @@ private:
   /// Keeps of the found triangles those that meet the ball about `middle`. `farthest`: no place
   /// that will be asked for is farther from Centre.
   void Fill(const TriangleList& found, const Vector& middle, double radius, double farthest);
+  void ForgetTriangles()
+  {
+    this->Count = 0;
+    this->LastTouched = -1;
+    this->HasThin = false;
+  }
   bool FillThin(std::int32_t i, double farthest);
   bool IsSeam(std::int32_t triangle, const Facet& facet, double clearance) const;
   void KeepClearOfRounding();

@@ -38,9 +38,7 @@ bool WorkingSet::GatherBall(WorkBudget& budget)
     this->Centre = this->Position;
     this->Radius = (fromOrigin - surfaceRadius) * (1.0 - 0x1p-40);
     this->RadiusToTry = surfaceRadius;
-    this->Count = 0;
-    this->LastTouched = -1;
-    this->HasThin = false;
+    this->ForgetTriangles();
     this->FoundCount = 0;
     this->EmptyCentre = this->Position;
     this->EmptyRadius = this->Radius;
@@ -135,9 +133,7 @@ bool WorkingSet::GatherSegment(const Vector& to, WorkBudget& budget)
 void WorkingSet::Fill(
   const TriangleList& found, const Vector& middle, double radius, double farthest)
 {
-  this->Count = 0;
-  this->LastTouched = -1;
-  this->HasThin = false;
+  this->ForgetTriangles();
   this->IsTargetMeasured = false;
   this->FoundCount = found.Count;
   double nearest = HUGE_VAL;
