@@ -142,7 +142,7 @@ std::shared_ptr<SurfaceDeformer::Engine> SurfaceDeformer::Borrow()
   return this->Engines.back();
 }
 
-/// Takes the order of the engine that the latest snapshot has. Throws std::bad_alloc.
+/// Takes the engine that the latest snapshot has. Throws std::bad_alloc.
 void SurfaceDeformer::CopyLatest(Engine& engine) const
 {
   engine.Collision = this->Current->Engine().Clone();
@@ -159,11 +159,13 @@ void SurfaceDeformer::CopyLatest(Engine& engine) const
 
 bool SurfaceDeformer::Fit(Engine& engine, const EngineInput& input)
 {
-  if (!engine.HasOrder(input))
+  bool hasOrder = engine.HasOrder(input);
+  if (!hasOrder)
   {
     this->CopyLatest(engine);
+    hasOrder = engine.HasOrder(input);
   }
-  if (engine.HasOrder(input))
+  if (hasOrder)
   {
     return engine.Collision->Refit(input);
   }
@@ -227,18 +229,6 @@ std::shared_ptr<const TriangleSurface> SurfaceDeformer::Make(
   {
     p = ToVec3(WithoutNegligible(ToVector(p) - origin, NegligibleShare * from.SurfaceRadius));
   }
-  Vector low(HUGE_VAL);
-  Vector high(-HUGE_VAL);
-  for (const Triangle& triangle : from.Triangles())
-  {
-    for (const std::int32_t corner : triangle)
-    {
-      const Vector point = ToVector(points[static_cast<std::size_t>(corner)]);
-      low = glm::min(low, point);
-      high = glm::max(high, point);
-    }
-  }
-  next->SurfaceDiagonal = glm::length(high - low);
   next->LocalPoints = std::make_shared<const std::vector<Vec3>>(std::move(points));
   if (!next->Measure(&from))
   {

@@ -68,8 +68,8 @@ bool IsExactDifference(double a, double b)
 /// Moves the origin to the middle of the used points, in each coordinate in which that rounds none
 /// of them: so it is where the middle is twice as far out as they reach from it (Sterbenz), and
 /// where they have few digits. A triangle as thin as rounding would not be the same after it.
-/// Returns a bound on their distance from the origin. `diagonal`: set to that of their bounds.
-double Recentre(TriangleMesh& mesh, Vec3& origin, double& diagonal)
+/// Returns a bound on their distance from the origin.
+double Recentre(TriangleMesh& mesh, Vec3& origin)
 {
   Vector low(HUGE_VAL);
   Vector high(-HUGE_VAL);
@@ -98,8 +98,8 @@ double Recentre(TriangleMesh& mesh, Vec3& origin, double& diagonal)
     }
   }
   origin = ToVec3(shift);
-  diagonal = glm::length(high - low);
-  const double radius = (0.5 * diagonal + glm::length(middle - shift)) * (1.0 + 0x1p-40);
+  const double radius =
+    (0.5 * glm::length(high - low) + glm::length(middle - shift)) * (1.0 + 0x1p-40);
   for (Vec3& p : mesh.Points)
   {
     p = ToVec3(WithoutNegligible(ToVector(p) - shift, NegligibleShare * radius));
@@ -162,6 +162,8 @@ bool TriangleSurface::Measure(const TriangleSurface* start)
 {
   double squaredRadius = 0.0;
   double squaredEdge = 0.0;
+  Vector low(HUGE_VAL);
+  Vector high(-HUGE_VAL);
   const std::vector<Vec3>& points = this->Points();
   for (const Triangle& t : this->Triangles())
   {
@@ -170,6 +172,8 @@ bool TriangleSurface::Measure(const TriangleSurface* start)
     const Vector c = ToVector(points[t[2]]);
     squaredRadius =
       std::max({ squaredRadius, SquaredLength(a), SquaredLength(b), SquaredLength(c) });
+    low = glm::min(low, glm::min(a, glm::min(b, c)));
+    high = glm::max(high, glm::max(a, glm::max(b, c)));
     const double longest =
       std::max({ SquaredLength(c - b), SquaredLength(a - c), SquaredLength(b - a) });
     // Whether it has an area is asked of those few that are longer than all before.
@@ -178,6 +182,7 @@ bool TriangleSurface::Measure(const TriangleSurface* start)
       squaredEdge = longest;
     }
   }
+  this->SurfaceDiagonal = glm::length(high - low);
   this->EndLongestEdge = std::sqrt(squaredEdge);
   this->EndRadius = std::sqrt(squaredRadius) * (1.0 + 0x1p-40);
   this->LongestEdge = std::max(this->EndLongestEdge, start ? start->EndLongestEdge : 0.0);
@@ -205,7 +210,7 @@ std::shared_ptr<const TriangleSurface> TriangleSurface::Build(
     return nullptr;
   }
   std::shared_ptr<TriangleSurface> surface(new TriangleSurface);
-  surface->SurfaceRadius = Recentre(mesh, surface->SurfaceOrigin, surface->SurfaceDiagonal);
+  surface->SurfaceRadius = Recentre(mesh, surface->SurfaceOrigin);
   surface->CrackWidth = options.CrackWidth;
   surface->LocalPoints = std::make_shared<const std::vector<Vec3>>(std::move(mesh.Points));
   const auto topology = std::make_shared<Topology>();
