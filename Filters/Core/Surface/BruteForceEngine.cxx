@@ -1,26 +1,11 @@
 #include "haptics/Surface/BruteForceEngine.h"
 
-#include "haptics/Math/VectorMath.h"
-
-#include <glm/common.hpp>
+#include "haptics/Surface/TriangleBounds.h"
 
 namespace haptics
 {
 namespace
 {
-struct Bounds
-{
-  Vector Low, High;
-};
-
-Bounds BoundsOf(const std::vector<Vec3>& points, const std::array<std::int32_t, 3>& t)
-{
-  const Vector a = ToVector(points[t[0]]);
-  const Vector b = ToVector(points[t[1]]);
-  const Vector c = ToVector(points[t[2]]);
-  return { glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)) };
-}
-
 class BruteForceEngine final : public CollisionEngine
 {
 public:
@@ -53,7 +38,7 @@ public:
   EngineKind Kind() const noexcept override { return EngineKind::BruteForce; }
   std::size_t MemoryBytes() const noexcept override
   {
-    return this->Boxes.capacity() * sizeof(Bounds);
+    return this->Boxes.capacity() * sizeof(TriangleBounds);
   }
 
 private:
@@ -64,22 +49,16 @@ private:
     this->Boxes.reserve(input.Triangles.size());
     for (const auto& t : input.Triangles)
     {
-      Bounds box = BoundsOf(input.Points, t);
-      if (input.StartPoints)
-      {
-        const Bounds start = BoundsOf(*input.StartPoints, t);
-        box = { glm::min(box.Low, start.Low), glm::max(box.High, start.High) };
-      }
-      this->Boxes.push_back(box);
+      this->Boxes.push_back(BoundsOf(input, t));
     }
   }
 
   // Comparisons of rounded box corners only: the rounding is far below the margin in both calls.
-  void FindInBox(const Bounds& box, TriangleList& found) const noexcept
+  void FindInBox(const TriangleBounds& box, TriangleList& found) const noexcept
   {
     for (std::size_t i = 0; i < this->Boxes.size(); ++i)
     {
-      const Bounds& b = this->Boxes[i];
+      const TriangleBounds& b = this->Boxes[i];
       const bool apart = b.High.x < box.Low.x || b.Low.x > box.High.x || b.High.y < box.Low.y ||
         b.Low.y > box.High.y || b.High.z < box.Low.z || b.Low.z > box.High.z;
       if (!apart && !found.Add(static_cast<std::int32_t>(i)))
@@ -89,7 +68,7 @@ private:
     }
   }
 
-  std::vector<Bounds> Boxes;
+  std::vector<TriangleBounds> Boxes;
   double Margin = 0.0;
 };
 }

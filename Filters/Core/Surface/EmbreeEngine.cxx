@@ -1,6 +1,7 @@
 // The only file that knows Embree.
 #include "haptics/Surface/EmbreeEngine.h"
 
+#include "haptics/Surface/TriangleBounds.h"
 #include "haptics/Surface/WideBvh.h"
 
 #if HAPTICS_EMBREE_VERSION >= 4
@@ -10,7 +11,6 @@
 #endif
 
 #include <algorithm>
-#include <cmath>
 #include <new>
 #include <utility>
 
@@ -73,17 +73,10 @@ std::vector<RTCBuildPrimitive> TriangleBoxes(const EngineInput& input)
   const double scale = 1.0 / input.Radius;
   for (std::size_t i = 0; i < boxes.size(); ++i)
   {
-    float low[3];
-    float high[3];
-    for (int k = 0; k < 3; ++k)
-    {
-      const auto& t = input.Triangles[i];
-      const auto [least, most] =
-        std::minmax({ input.Points[t[0]][k], input.Points[t[1]][k], input.Points[t[2]][k] });
-      low[k] = static_cast<float>(least * scale);
-      high[k] = static_cast<float>(most * scale);
-    }
-    boxes[i] = { low[0], low[1], low[2], 0u, high[0], high[1], high[2], static_cast<unsigned>(i) };
+    const TriangleBounds bounds = BoundsOf(input, input.Triangles[i]);
+    const glm::vec3 low(bounds.Low * scale);
+    const glm::vec3 high(bounds.High * scale);
+    boxes[i] = { low.x, low.y, low.z, 0u, high.x, high.y, high.z, static_cast<unsigned>(i) };
   }
   return boxes;
 }

@@ -170,8 +170,8 @@ private:
   static Side ChooseSides(
     const std::vector<Vec3>& points, std::vector<Side> asked, Side forAll, Topology& topology);
 
-  /// Works out diagonal, radius, longest edge and clearance; `start`: what it deforms from, or null. False
-  /// where no triangle has an area.
+  /// Works out diagonal, radius, longest edge and clearance; `start`: what it deforms from, or
+  /// null. False where no triangle has an area.
   bool Measure(const TriangleSurface* start);
   EngineInput Input() const;
 

@@ -1,9 +1,7 @@
 #include "haptics/Surface/WideBvh.h"
 
 #include "haptics/Math/VectorClones.h"
-#include "haptics/Math/VectorMath.h"
-
-#include <glm/common.hpp>
+#include "haptics/Surface/TriangleBounds.h"
 
 #include <cmath>
 #include <cstring>
@@ -43,21 +41,8 @@ struct Box
 
 Box BoxOf(const EngineInput& input, std::int32_t triangle, double scale, double pad)
 {
-  Vector low(HUGE_VAL);
-  Vector high(-HUGE_VAL);
-  for (const std::int32_t corner : input.Triangles[triangle])
-  {
-    const Vector to = ToVector(input.Points[corner]);
-    low = glm::min(low, to);
-    high = glm::max(high, to);
-    if (input.StartPoints)
-    {
-      const Vector from = ToVector((*input.StartPoints)[corner]);
-      low = glm::min(low, from);
-      high = glm::max(high, from);
-    }
-  }
-  return { glm::vec3(low * scale - pad), glm::vec3(high * scale + pad) };
+  const TriangleBounds bounds = BoundsOf(input, input.Triangles[triangle]);
+  return { glm::vec3(bounds.Low * scale - pad), glm::vec3(bounds.High * scale + pad) };
 }
 
 /// The exponent, as float32 has it, of the smallest power of two with which `LastStep` steps reach
