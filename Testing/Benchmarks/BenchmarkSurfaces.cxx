@@ -1,9 +1,9 @@
 #include "BenchmarkSurfaces.h"
 
 #include "AnalyticSurfaces.h"
+#include "FirstHit.h"
 #include "MeshToPolyData.h"
 #include "ProfileSurfaces.h"
-#include "haptics/Contact/GodObject.h"
 
 #include "vtkGodObjectFilter.h"
 #include "vtkNew.h"
@@ -118,17 +118,6 @@ std::vector<BenchmarkSurface> AllBenchmarkSurfaces(const std::string& folder)
 
 namespace
 {
-/// Where a ray first meets a surface, as its distance from the ray's start; the length of the ray
-/// where it meets none.
-double FirstHit(GodObject& ray, const Vec3& from, const Vec3& to)
-{
-  ray.Place(from);
-  ray.Update(to);
-  int corners = 0;
-  const Vec3* const way = ray.Way(corners);
-  return corners > 1 ? std::min(Length(way[1] - way[0]), Length(to - from)) : 0.0;
-}
-
 /// The hand's height over a surface that rays tell.
 class RayedStroke
 {

@@ -139,25 +139,4 @@ std::vector<double> TimesOf(ContactMethod& method, const std::vector<Vec3>& hips
   }
   return times;
 }
-
-double Quantile(std::vector<double> values, double quantile)
-{
-  if (values.empty())
-  {
-    return 0.0;
-  }
-  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(quantile * (values.size() - 1));
-  std::nth_element(values.begin(), nth, values.end());
-  return *nth;
-}
-
-double Mean(const std::vector<double>& values)
-{
-  double sum = 0.0;
-  for (const double value : values)
-  {
-    sum += value;
-  }
-  return values.empty() ? 0.0 : sum / values.size();
-}
 }

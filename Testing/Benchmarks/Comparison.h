@@ -52,10 +52,6 @@ Samples Compare(ContactMethod& method, const Stroke& stroke, int replays);
 std::vector<double> TimesOf(
   ContactMethod& method, const std::vector<Vec3>& hips, int replays,
   const std::function<void(std::size_t)>& afterTick = [](std::size_t) {});
-
-/// 0.5 is the median, 1 the largest; 0 where there are none.
-double Quantile(std::vector<double> values, double quantile);
-double Mean(const std::vector<double>& values);
 }
 
 #endif

@@ -4,6 +4,7 @@
 // a servo needs: the counters mean_us, p50_us, p99_us and p999_us. The clock adds about 0.03 us.
 #include "AnalyticSurfaces.h"
 #include "MaterialTools.h"
+#include "Statistics.h"
 #include "haptics/Contact/GodObject.h"
 
 #include "vtkCellArray.h"
@@ -85,25 +86,14 @@ void Stroke(benchmark::State& state, const SurfacePointer& surface, const std::v
       contacts += contact.Status == UpdateStatus::Touching;
     }
   }
-  const auto quantile = [&times](double q)
-  {
-    const auto nth = times.begin() + static_cast<std::ptrdiff_t>(q * (times.size() - 1));
-    std::nth_element(times.begin(), nth, times.end());
-    return *nth;
-  };
-  double sum = 0.0;
-  for (const double time : times)
-  {
-    sum += time;
-  }
   ClearCounters(state);
   state.counters["triangles"] = static_cast<double>(surface->Triangles().size());
   state.counters["bytes_per_triangle"] =
     static_cast<double>(surface->MemoryBytes()) / surface->Triangles().size();
-  state.counters["mean_us"] = sum / times.size();
-  state.counters["p50_us"] = quantile(0.5);
-  state.counters["p99_us"] = quantile(0.99);
-  state.counters["p999_us"] = quantile(0.999);
+  state.counters["mean_us"] = Mean(times);
+  state.counters["p50_us"] = Quantile(times, 0.5);
+  state.counters["p99_us"] = Quantile(times, 0.99);
+  state.counters["p999_us"] = Quantile(times, 0.999);
   state.counters["contact"] = static_cast<double>(contacts) / times.size();
 }
 

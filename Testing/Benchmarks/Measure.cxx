@@ -8,6 +8,7 @@
 #include "PaperMethod.h"
 #include "ProfileSurfaces.h"
 #include "Scenes.h"
+#include "Statistics.h"
 
 #include "vtkNew.h"
 #include "vtkQuadricDecimation.h"

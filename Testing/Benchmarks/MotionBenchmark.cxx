@@ -4,6 +4,7 @@
 // hands it over, the other ticks at 1 kHz and strokes the surface. Prints CSV, a line a size. Needs
 // two cores for itself; `--help` tells the options.
 #include "AnalyticSurfaces.h"
+#include "Statistics.h"
 #include "haptics/Servo/GodObjectExchange.h"
 #include "haptics/Servo/RealTimePriority.h"
 #include "haptics/Surface/SurfaceDeformer.h"
@@ -33,17 +34,6 @@ constexpr std::size_t NumberOfFirst = 2; // snapshots that are not counted
 double Since(Clock::time_point start)
 {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-double Quantile(std::vector<double>& values, double q)
-{
-  if (values.empty())
-  {
-    return 0.0;
-  }
-  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(q * (values.size() - 1));
-  std::nth_element(values.begin(), nth, values.end());
-  return *nth;
 }
 
 /// Of all threads, so that a busy machine does not count [s]; the servo's share is small.

@@ -1,7 +1,8 @@
 // One stroke over one surface: what a tick costs in time, and by callgrind in instructions.
 #include "AnalyticSurfaces.h"
 #include "BenchmarkSurfaces.h"
-#include "haptics/Contact/GodObject.h"
+#include "FirstHit.h"
+#include "Statistics.h"
 
 #include <algorithm>
 #include <chrono>
@@ -161,31 +162,6 @@ TriangleMesh MakeMesh(const Options& options)
   return mesh.Triangles.empty() ? (Fail("There is no surface " + name), mesh) : mesh;
 }
 
-/// How far from the middle a ray from outside first meets the surface; 0 where it does not.
-class Height
-{
-public:
-  explicit Height(const std::shared_ptr<const TriangleSurface>& surface)
-    : Surface(surface)
-    , Ray({ surface })
-  {
-  }
-
-  double operator()(const Vec3& outwards)
-  {
-    const Vec3 middle = this->Surface->Origin();
-    this->Ray.Place(middle + 1.1 * this->Surface->Radius() * outwards);
-    int corners = 0;
-    this->Ray.Update(middle);
-    const Vec3* const way = this->Ray.Way(corners);
-    return corners > 1 ? Length(way[1]) : 0.0;
-  }
-
-private:
-  std::shared_ptr<const TriangleSurface> Surface;
-  GodObject Ray;
-};
-
 Vec3 RandomDirection(std::mt19937& random)
 {
   std::normal_distribution<double> normal;
@@ -197,15 +173,18 @@ std::vector<Vec3> MakePath(
 {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
-  Height height(surface);
-  const Vec3 middle = surface->Origin();
+  GodObject ray({ surface });
+  const double far = 2.0 * surface->Radius();
+  const auto height = [&](const Vec3& outwards) {
+    return far - FirstHit(ray, far * outwards, { 0, 0, 0 });
+  };
   const bool isSphere = options.Surface.rfind("sphere", 0) == 0;
   double smoothed = 1.0;
   const auto at = [&](const Vec3& outwards, double above)
   {
     // Smoothed, as a hand does not jump into a hole.
     smoothed += isSphere ? 1.0 - smoothed : 0.02 * (height(outwards) - smoothed);
-    return middle + (smoothed + above) * outwards;
+    return (smoothed + above) * outwards;
   };
   Vec3 u = Unit(Cross({ 0.3, 0.5, 0.81 }, { 0, 0, 1 }));
   Vec3 v = Unit(Cross({ 0.3, 0.5, 0.81 }, u));
@@ -247,24 +226,16 @@ std::vector<Vec3> MakePath(
       smoothed = isSphere ? 1.0 : height(outwards);
       for (double above = 60e-3; above > -70e-3; above -= 5e-3)
       {
-        hips.push_back(middle + (smoothed + above) * outwards);
+        hips.push_back((smoothed + above) * outwards);
       }
       for (double above = -70e-3; above < 60e-3; above += 5e-3)
       {
-        hips.push_back(middle + (smoothed + above) * outwards);
+        hips.push_back((smoothed + above) * outwards);
       }
     }
   }
   hips.resize(ticks);
   return hips;
-}
-
-double Quantile(std::vector<double>& numbers, double q)
-{
-  const auto nth =
-    numbers.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(numbers.size() - 1));
-  std::nth_element(numbers.begin(), nth, numbers.end());
-  return *nth;
 }
 }
 
@@ -306,14 +277,9 @@ int main(int argc, char** argv)
   for (int i = 0; i < options.Repeat; ++i)
   {
     GodObject god({ surface });
-    god.Update(surface->Origin() + 1.2 * (hips[0] - surface->Origin()));
+    god.Update(1.2 * hips[0]);
     RunTicks(god, hips, times, contacts);
-    double total = 0.0;
-    for (const double time : times)
-    {
-      total += time;
-    }
-    figures[0].push_back(total / static_cast<double>(times.size()));
+    figures[0].push_back(Mean(times));
     const double quantiles[] = { 0.5, 0.99, 0.999, 1.0 };
     for (int k = 0; k < 4; ++k)
     {
