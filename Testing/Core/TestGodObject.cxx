@@ -119,7 +119,8 @@ TEST(GodObject, TakesTwoTicksOverAConvexEdgeWithOnePassATick)
     god.Update(at(-0.005, depth));
     const Vec3 there = at(0.005, 0.0);
     const double farther = god.Update(at(0.005, depth)).Position[2] - there[2];
-    EXPECT_EQ(farther<1e-9, passes> 1) << farther;
+    const bool isThere = farther < 1e-9;
+    EXPECT_EQ(isThere, passes > 1) << farther;
     EXPECT_NEAR(god.Update(at(0.005, depth)).Position[2], there[2], 1e-9);
   }
 }
