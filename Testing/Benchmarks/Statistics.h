@@ -14,8 +14,8 @@ inline double Quantile(std::vector<double> values, double quantile)
   {
     return 0.0;
   }
-  const auto nth = values.begin() +
-    static_cast<std::ptrdiff_t>(quantile * static_cast<double>(values.size() - 1));
+  const auto nth =
+    values.begin() + static_cast<std::ptrdiff_t>(quantile * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), nth, values.end());
   return *nth;
 }
