@@ -1,9 +1,7 @@
 #ifndef Haptics_ForceLink_h
 #define Haptics_ForceLink_h
 
-#include "haptics/Devices/AnswerBell.h"
-#include "haptics/Devices/ExchangeTimes.h"
-#include "haptics/Devices/LatestValue.h"
+#include "haptics/Devices/DeviceLink.h"
 
 #include <array>
 #include <atomic>
@@ -40,25 +38,11 @@ struct LinkDemand
   ///@}
 };
 
-/// @brief What goes wait-free between the servo thread and the thread that talks to one device.
-struct ForceLink
+/// What goes wait-free between the servo thread and the thread that talks to one device.
+struct ForceLink : DeviceLink<LinkAnswer, LinkDemand>
 {
-  LatestValue<LinkAnswer> Answers; ///< to the servo: one at a time, newest wins
-  LatestValue<LinkDemand> Demands; ///< from the servo
-  LatestValue<DriverSample> Shown; ///< to the GUI
-  /// How often a watchdog let go of all force: what was asked for before does not count any more.
-  std::atomic<std::uint64_t> Halts{ 0 };
-  AnswerBell Bell;                 ///< rings with every answer, and at the end
-  std::atomic<bool> Up{ false };   ///< the device answers and takes forces
-  std::atomic<bool> Over{ false }; ///< the device has been let go of: it gets nothing any more
-
-  ///@{
-  /// Counts since the device was opened; any thread may read them.
-  std::atomic<std::uint64_t> Exchanges{ 0 };
-  std::atomic<std::uint64_t> LateCommands{ 0 }; ///< forces that were withdrawn as too old
-  std::atomic<std::uint64_t> Releases{ 0 };     ///< forces that the driver let go of by itself
-  ExchangeTimes Times;
-  ///@}
+  LatestValue<DriverSample> Shown;          ///< to the GUI
+  std::atomic<std::uint64_t> Releases{ 0 }; ///< forces that the driver let go of by itself
 };
 }
 
