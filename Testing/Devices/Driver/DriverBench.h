@@ -45,6 +45,11 @@ inline bool WaitForFault(vtkDriverHapticDevice* device)
     });
 }
 
+inline bool Says(const std::string& text, const std::string& part)
+{
+  return text.find(part) != std::string::npos;
+}
+
 using Vec = std::array<double, 3>;
 
 inline double Magnitude(const Vec& v)

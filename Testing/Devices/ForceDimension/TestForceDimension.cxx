@@ -1,48 +1,25 @@
 // The driver of Force Dimension's devices against a stub of libdrd.so with the same symbols.
-#include "DriverBench.h"
+#include "DriverTest.h"
+#include "StubBench.h"
 #include "StubDhd.h"
-#include "haptics/Devices/DeviceChannel.h"
 #include "vtkForceDimensionHapticDevice.h"
-#include "vtkNew.h"
 #include "vtkStringArray.h"
-
-#include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <new>
-
-#include <dlfcn.h>
-#include <sys/mman.h>
 
 namespace
 {
-void UseState(StubDhdState* state)
-{
-  void* const library = dlopen(HAPTICS_STUB_DRD, RTLD_NOW | RTLD_LOCAL);
-  reinterpret_cast<void (*)(StubDhdState*)>(dlsym(library, "StubDhdUse"))(state);
-}
-
-class ForceDimensionBench : public DriverBench
+class ForceDimensionBench : public StubBench<vtkForceDimensionHapticDevice, StubDhdState>
 {
 public:
   ForceDimensionBench()
-    : Memory(mmap(
-        nullptr, sizeof(StubDhdState), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0))
-    , State(new (this->Memory) StubDhdState)
+    : StubBench(HAPTICS_STUB_DRD, "StubDhdUse")
   {
-    UseState(this->State);
   }
-  ~ForceDimensionBench() override { munmap(this->Memory, sizeof(StubDhdState)); }
 
-  vtkSmartPointer<vtkDriverHapticDevice> MakeDevice() override
-  {
-    auto device = vtkSmartPointer<vtkForceDimensionHapticDevice>::New();
-    device->SetLibraryFile(HAPTICS_STUB_DRD);
-    return device;
-  }
   // The vendor's x goes towards the user, y right, z up.
   void MoveTo(const Vec& position) override
   {
@@ -54,64 +31,24 @@ public:
   {
     return { this->State->Force[1], this->State->Force[2], this->State->Force[0] };
   }
-  void SetDelay(int milliseconds) override { this->State->Delay = milliseconds; }
-
-private:
-  void* const Memory;
-  StubDhdState* const State;
 };
 
-bool Says(const std::string& text, const std::string& part)
-{
-  return text.find(part) != std::string::npos;
-}
-
-class ForceDimension : public testing::Test
+class ForceDimension : public DriverTest<vtkForceDimensionHapticDevice>
 {
 protected:
   ForceDimension()
   {
-    UseState(&this->Stub);
+    UseState(HAPTICS_STUB_DRD, "StubDhdUse", &this->Stub);
     this->Device->SetLibraryFile(HAPTICS_STUB_DRD);
   }
+  ~ForceDimension() override { this->Device->Close(); } // before Stub ends
 
-  bool Exchange()
-  {
-    haptics::DeviceSample sample;
-    this->Channel->WaitForSample(4000000);
-    this->Time += 0.001;
-    const bool isThere = this->Channel->Read(this->Time, sample);
-    this->Channel->Write({ 0.0, isThere ? 1.0 : 0.0, 0.0 });
-    return isThere;
-  }
   void Push()
   {
-    ASSERT_TRUE(WaitUntilOpen(this->Device)) << this->Device->GetErrorMessage();
-    this->Channel = this->Device->GetChannel();
-    this->Time = 0.0;
-    ASSERT_TRUE(WaitFor(
-      [this]
-      {
-        this->Exchange();
-        return this->Stub.Force[2] > 0.9;
-      }));
-  }
-  std::string FaultOfOpening()
-  {
-    EXPECT_FALSE(WaitUntilOpen(this->Device));
-    return this->Device->GetErrorMessage();
-  }
-  std::string LossOf()
-  {
-    EXPECT_TRUE(WaitFor([this] { return !this->Exchange(); }));
-    EXPECT_TRUE(WaitForFault(this->Device));
-    return this->Device->GetErrorMessage();
+    this->PushUntil([this] { return this->Stub.Force[2] > 0.9; });
   }
 
   StubDhdState Stub;
-  vtkNew<vtkForceDimensionHapticDevice> Device; // ends before Stub
-  std::shared_ptr<haptics::DeviceChannel> Channel;
-  double Time = 0.0;
 };
 
 TEST_F(ForceDimension, ButtonsAndWristAreReportedAndTheVendorsRegulationStops)

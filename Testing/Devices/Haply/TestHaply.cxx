@@ -1,24 +1,15 @@
 // The driver of the Inverse3 against a service that speaks its protocol on loopback.
-#include "DriverBench.h"
+#include "DriverTest.h"
 #include "FakeHaplyService.h"
-#include "haptics/Devices/DeviceChannel.h"
 #include "haptics/Devices/Haply/HaplyMessage.h"
 #include "vtkHaplyHapticDevice.h"
-#include "vtkNew.h"
 #include "vtkStringArray.h"
-
-#include <gtest/gtest.h>
 
 namespace
 {
 using haptics::HaplyMessage;
 
-bool Says(const std::string& text, const std::string& part)
-{
-  return text.find(part) != std::string::npos;
-}
-
-class Haply : public testing::Test
+class Haply : public DriverTest<vtkHaplyHapticDevice>
 {
 protected:
   void Use(FakeHaplyService& service)
@@ -30,42 +21,14 @@ protected:
   std::string FaultOf(FakeHaplyService& service)
   {
     this->Use(service);
-    EXPECT_FALSE(WaitUntilOpen(this->Device));
-    return this->Device->GetErrorMessage();
+    return this->FaultOfOpening();
   }
   /// Pushes with 1 N up until the service has got it.
   void Push(FakeHaplyService& service)
   {
     this->Use(service);
-    ASSERT_TRUE(WaitUntilOpen(this->Device)) << this->Device->GetErrorMessage();
-    this->Channel = this->Device->GetChannel();
-    ASSERT_TRUE(WaitFor(
-      [&]
-      {
-        this->Exchange();
-        return service.GetForce()[2] > 0.9;
-      }));
+    this->PushUntil([&] { return service.GetForce()[2] > 0.9; });
   }
-  bool Exchange()
-  {
-    haptics::DeviceSample sample;
-    this->Channel->WaitForSample(4000000);
-    this->Time += 0.001;
-    const bool isThere = this->Channel->Read(this->Time, sample);
-    this->Channel->Write({ 0.0, isThere ? 1.0 : 0.0, 0.0 });
-    return isThere;
-  }
-  /// Goes on as a servo until the device is lost; why.
-  std::string LossOf()
-  {
-    EXPECT_TRUE(WaitFor([this] { return !this->Exchange(); }));
-    EXPECT_TRUE(WaitForFault(this->Device));
-    return this->Device->GetErrorMessage();
-  }
-
-  vtkNew<vtkHaplyHapticDevice> Device;
-  std::shared_ptr<haptics::DeviceChannel> Channel;
-  double Time = 0.0;
 };
 
 TEST(HaplyMessages, AForceIsSpelledAsEachVersionWantsIt)

@@ -1,49 +1,25 @@
 // The driver of 3D Systems' devices against a stub of libHD.so with the same symbols.
-#include "DriverBench.h"
+#include "DriverTest.h"
+#include "StubBench.h"
 #include "StubHd.h"
-#include "haptics/Devices/DeviceChannel.h"
-#include "vtkNew.h"
 #include "vtkOpenHapticsDevice.h"
 #include "vtkStringArray.h"
-
-#include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <new>
-
-#include <dlfcn.h>
-#include <sys/mman.h>
 
 namespace
 {
-/// Has the stub use this state, in this process and its children.
-void UseState(StubHdState* state)
-{
-  void* const library = dlopen(HAPTICS_STUB_HD, RTLD_NOW | RTLD_LOCAL);
-  reinterpret_cast<void (*)(StubHdState*)>(dlsym(library, "StubHdUse"))(state);
-}
-
-class OpenHapticsBench : public DriverBench
+class OpenHapticsBench : public StubBench<vtkOpenHapticsDevice, StubHdState>
 {
 public:
   OpenHapticsBench()
-    : Memory(mmap(
-        nullptr, sizeof(StubHdState), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0))
-    , State(new (this->Memory) StubHdState)
+    : StubBench(HAPTICS_STUB_HD, "StubHdUse")
   {
-    UseState(this->State);
   }
-  ~OpenHapticsBench() override { munmap(this->Memory, sizeof(StubHdState)); }
 
-  vtkSmartPointer<vtkDriverHapticDevice> MakeDevice() override
-  {
-    auto device = vtkSmartPointer<vtkOpenHapticsDevice>::New();
-    device->SetLibraryFile(HAPTICS_STUB_HD);
-    return device;
-  }
   void MoveTo(const Vec& position) override
   {
     for (std::size_t i = 0; i < 3; ++i)
@@ -55,60 +31,24 @@ public:
   {
     return { this->State->Force[0], this->State->Force[1], this->State->Force[2] };
   }
-  void SetDelay(int milliseconds) override { this->State->Delay = milliseconds; }
-
-private:
-  void* const Memory;
-  StubHdState* const State;
 };
 
-bool Says(const std::string& text, const std::string& part)
-{
-  return text.find(part) != std::string::npos;
-}
-
-class OpenHaptics : public testing::Test
+class OpenHaptics : public DriverTest<vtkOpenHapticsDevice>
 {
 protected:
   OpenHaptics()
   {
-    UseState(&this->Stub);
+    UseState(HAPTICS_STUB_HD, "StubHdUse", &this->Stub);
     this->Device->SetLibraryFile(HAPTICS_STUB_HD);
   }
-  ~OpenHaptics() override { this->Device->Close(); }
+  ~OpenHaptics() override { this->Device->Close(); } // before Stub ends
 
-  bool Exchange()
-  {
-    haptics::DeviceSample sample;
-    this->Channel->WaitForSample(4000000);
-    this->Time += 0.001;
-    const bool isThere = this->Channel->Read(this->Time, sample);
-    this->Channel->Write({ 0.0, isThere ? 1.0 : 0.0, 0.0 });
-    return isThere;
-  }
   void Push()
   {
-    ASSERT_TRUE(WaitUntilOpen(this->Device)) << this->Device->GetErrorMessage();
-    this->Channel = this->Device->GetChannel();
-    this->Time = 0.0;
-    ASSERT_TRUE(WaitFor(
-      [this]
-      {
-        this->Exchange();
-        return this->Stub.Force[1] > 0.9;
-      }));
-  }
-  std::string LossOf()
-  {
-    EXPECT_TRUE(WaitFor([this] { return !this->Exchange(); }));
-    EXPECT_TRUE(WaitForFault(this->Device));
-    return this->Device->GetErrorMessage();
+    this->PushUntil([this] { return this->Stub.Force[1] > 0.9; });
   }
 
   StubHdState Stub;
-  vtkNew<vtkOpenHapticsDevice> Device; // ends before Stub
-  std::shared_ptr<haptics::DeviceChannel> Channel;
-  double Time = 0.0;
 };
 
 TEST_F(OpenHaptics, LimitsAreThoseThatTheDeviceReports)

@@ -132,11 +132,6 @@ private:
   std::thread Thread;
 };
 
-bool Says(const std::string& text, const std::string& part)
-{
-  return text.find(part) != std::string::npos;
-}
-
 class SpaceMouse : public testing::Test
 {
 protected:
