@@ -16,6 +16,7 @@
 #include "vtkHapticServo.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
+#include "vtkProp3D.h"
 #include "vtkTrivialProducer.h"
 
 #include <algorithm>
@@ -114,30 +115,37 @@ void vtkHapticScene::ForgetMessage()
 
 //--- what is touched ------------------------------------------------------------------------------
 
-int vtkHapticScene::AddSurface(vtkActor* actor)
+// One overload for all props: VTK 9.6 crashes in wrapping methods of one property (Add..., Remove...)
+// whose arguments are of several classes of which the module does not know the second.
+int vtkHapticScene::AddSurface(vtkProp3D* prop)
 {
-  if (!actor)
+  if (!prop)
   {
-    this->Fail("There is no actor to add as a surface. Give one.");
+    this->Fail("There is no actor or assembly to add as a surface. Give one.");
     return -1;
   }
-  if (const haptics::HapticSurface* known = this->Internal->Surfaces.Find(actor))
+  if (vtkActor* const actor = vtkActor::SafeDownCast(prop))
   {
-    return known->Id();
+    if (const haptics::HapticSurface* known = this->Internal->Surfaces.Find(actor))
+    {
+      return known->Id();
+    }
+    this->Modified();
+    return this->Internal->Surfaces.Add(std::make_unique<haptics::ActorSource>(actor));
   }
-  this->Modified();
-  return this->Internal->Surfaces.Add(std::make_unique<haptics::ActorSource>(actor));
+  if (vtkAssembly* const assembly = vtkAssembly::SafeDownCast(prop))
+  {
+    this->Modified();
+    return this->Internal->Surfaces.Add(assembly);
+  }
+  this->Fail(std::string("A ") + prop->GetClassName() +
+    " shows no surface. Give a vtkActor or a vtkAssembly; of a volume that of a contour.");
+  return -1;
 }
 
-int vtkHapticScene::AddSurface(vtkAssembly* assembly)
+int vtkHapticScene::AddSurfaceActor(vtkActor* actor)
 {
-  if (!assembly)
-  {
-    this->Fail("There is no assembly to add as surfaces. Give one.");
-    return -1;
-  }
-  this->Modified();
-  return this->Internal->Surfaces.Add(assembly);
+  return this->AddSurface(actor);
 }
 
 int vtkHapticScene::AddSurface(vtkAlgorithmOutput* geometry)
@@ -173,15 +181,15 @@ bool vtkHapticScene::RemoveSurface(int id)
   return isRemoved;
 }
 
-bool vtkHapticScene::RemoveSurface(vtkActor* actor)
+bool vtkHapticScene::RemoveSurface(vtkProp3D* prop)
 {
+  if (vtkAssembly* const assembly = vtkAssembly::SafeDownCast(prop))
+  {
+    return this->RemoveSurface(this->Internal->Surfaces.FindAssembly(assembly));
+  }
+  vtkActor* const actor = vtkActor::SafeDownCast(prop);
   const haptics::HapticSurface* surface = this->Internal->Surfaces.Find(actor);
   return surface && this->RemoveSurface(surface->Id());
-}
-
-bool vtkHapticScene::RemoveSurface(vtkAssembly* assembly)
-{
-  return assembly && this->RemoveSurface(this->Internal->Surfaces.FindAssembly(assembly));
 }
 
 void vtkHapticScene::RemoveAllSurfaces()

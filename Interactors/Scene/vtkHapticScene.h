@@ -63,6 +63,7 @@ class vtkHapticProperties;
 class vtkHapticServo;
 class vtkMatrix4x4;
 class vtkPolyData;
+class vtkProp3D;
 
 class VTKHAPTICSSCENE_EXPORT vtkHapticScene : public vtkObject
 {
@@ -105,7 +106,8 @@ public:
   ///@{
   /**
    * Adds a surface and returns its id, which is never given twice; -1 and an error where the
-   * argument is null. The geometry is taken in by the next Update(), Step() or Engage().
+   * argument is null, or a prop that is neither a vtkActor nor a vtkAssembly. The geometry is taken
+   * in by the next Update(), Step() or Engage().
    *
    * An actor is followed: geometry, matrix (mirrored and scaled ones too), visibility and
    * pickability; one that is hidden or not pickable is not touched. Adding it again returns the id
@@ -121,8 +123,7 @@ public:
    * assembly has it; parts that come, go, move, are shown or hidden are followed. The id returned
    * is the assembly's as a whole, to remove it.
    */
-  int AddSurface(vtkActor* actor);
-  int AddSurface(vtkAssembly* assembly);
+  int AddSurface(vtkProp3D* prop);
   int AddSurface(vtkAlgorithmOutput* geometry);
   int AddSurface(vtkPolyData* geometry);
   ///@}
@@ -130,7 +131,7 @@ public:
    * As AddSurface(), for Python: VTK's choice between overloads there does not know an actor of a
    * class that Python has derived from vtkActor and others, as PyVista's is.
    */
-  int AddSurfaceActor(vtkActor* actor) { return this->AddSurface(actor); }
+  int AddSurfaceActor(vtkActor* actor);
 
   ///@{
   /**
@@ -139,8 +140,7 @@ public:
    * is on its way to other points waits for that, 0.1 s at most.
    */
   bool RemoveSurface(int id);
-  bool RemoveSurface(vtkActor* actor);
-  bool RemoveSurface(vtkAssembly* assembly);
+  bool RemoveSurface(vtkProp3D* prop);
   void RemoveAllSurfaces();
   ///@}
 

@@ -11,6 +11,7 @@ from vtkhaptics import HapticsError, HapticsWarning, vtkHapticScene, vtkSimulate
 from vtkmodules.vtkCommonCore import vtkVersion
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkFiltersSources import vtkPlaneSource
+from vtkmodules.vtkRenderingCore import vtkVolume
 
 # VTK 9.1 gives Python no way to choose the class of what C++ has made.
 EXTENDS_PARTS = hasattr(vtkPolyData, "override")
@@ -71,6 +72,9 @@ class Errors(unittest.TestCase):
             device.SetPosition(float("nan"), 0.0, 0.0)
         with self.raises("vtkHapticScene", "null|None|no "):
             scene.AddSurfaceActor(None)
+        with self.raises("vtkHapticScene", "Volume shows no surface.*contour"):
+            scene.AddSurface(vtkVolume())
+        self.assertFalse(scene.RemoveSurface(vtkVolume()))
         with self.raises("vtkHapticScene", "factor|scale|finite"):
             scene.ScaleWorkspace(0.0)
         scene.SetStiffness(400.0)
