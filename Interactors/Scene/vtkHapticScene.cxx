@@ -115,8 +115,8 @@ void vtkHapticScene::ForgetMessage()
 
 //--- what is touched ------------------------------------------------------------------------------
 
-// One overload for all props: VTK 9.6 crashes in wrapping methods of one property (Add..., Remove...)
-// whose arguments are of several classes of which the module does not know the second.
+// One overload for all props: VTK 9.6 crashes in wrapping methods of one property (Add...,
+// Remove...) whose arguments are of several classes of which the module does not know the second.
 int vtkHapticScene::AddSurface(vtkProp3D* prop)
 {
   if (!prop)

@@ -6,7 +6,11 @@ import subprocess
 import sys
 import tempfile
 
+import numpy as np
+from vtkhaptics.picture import stroke_lines
+from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonComputationalGeometry import vtkParametricTorus
+from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
 from vtkmodules.vtkFiltersSources import vtkLineSource, vtkParametricFunctionSource
@@ -90,6 +94,26 @@ def test_bad_input(folder):
     assert not os.path.exists(output), "nothing is written before there is a surface"
 
 
+def test_a_stroke_is_drawn_by_its_length():
+    # Of a minute and more, of a hand that rests for the second half: who closes the window waits for it.
+    ticks = 100_000
+    way = np.minimum(np.linspace(0.0, 2.0, ticks), 1.0)
+    trace = vtkPolyData()
+    points = vtkPoints()
+    points.SetData(numpy_to_vtk(np.stack([way, 0.0 * way, 0.0 * way], axis=1), deep=True))
+    trace.SetPoints(points)
+    touching = np.ones(ticks)
+    touching[25_000:25_100] = 0.0
+    for name, values in (("Force", np.ones((ticks, 3))), ("ActiveConstraints", touching)):
+        array = numpy_to_vtk(values, deep=True)
+        array.SetName(name)
+        trace.GetPointData().AddArray(array)
+    lines = stroke_lines(trace, 0.01)
+    assert lines.GetNumberOfLines() == 2, lines.GetNumberOfLines()
+    assert 95 <= lines.GetNumberOfPoints() <= 105, lines.GetNumberOfPoints()
+    assert abs(lines.GetLength() - 1.0) < 0.02, lines.GetBounds()
+
+
 def test_arguments(folder):
     assert "examples:" in demo("--help").stdout
     assert demo("--surface", "a.stl").returncode == 2
@@ -100,3 +124,4 @@ with tempfile.TemporaryDirectory() as scratch:
     test_touches_a_surface(scratch)
     test_bad_input(scratch)
     test_arguments(scratch)
+test_a_stroke_is_drawn_by_its_length()

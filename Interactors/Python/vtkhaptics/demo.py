@@ -238,7 +238,7 @@ def run(options, interrupts):
     def write(over):
         # Not into the window, which may be closed by now.
         drawn = Picture(surface, plan.view, name, offscreen=True) if window else picture
-        contact = report(options, scene, drawn)
+        contact = report(options, scene, drawn, over)
         if over and contact <= 0.5:
             raise DemoError(
                 f"only {100.0 * contact:.0f} % of the ticks touched the surface; "
@@ -253,8 +253,9 @@ def output_files(options):
     return [os.path.join(options.output, name) for name in ("trace.vtp", "touched.png")]
 
 
-def report(options, scene, picture):
-    """Prints the table and writes trace and picture; the share of ticks in contact."""
+def report(options, scene, picture, over):
+    """Prints the table and writes trace and picture, in haste where the stroke is not over; the share
+    of ticks in contact."""
     trace = scene.GetTrace()
     if trace.GetNumberOfPoints() == 0:
         raise DemoError("the servo did not tick: " + (scene.GetErrorMessage() or "no cause given"))
@@ -268,9 +269,11 @@ def report(options, scene, picture):
 
     trace_file, picture_file = output_files(options)
     write_polydata(trace_file, trace, [options.surface])
-    picture.add_stroke(stroke_lines(trace), picture.world_size(0.0035), strongest)
+    stroke = stroke_lines(trace, picture.world_size(0.001))
+    picture.add_stroke(stroke, picture.world_size(0.0035), strongest)
     add_hand(picture, vtkGodObjectActor(), trace)
-    picture.save(picture_file, [options.surface])
+    # Who closes the window does not wait for the finest edges.
+    picture.save(picture_file, [options.surface], scale=2 if over else 1)
     print(f"picture: {picture_file}\ntrace:   {trace_file}", flush=True)
     return contact
 

@@ -150,6 +150,8 @@ def polydata_bytes(data):
     writer = vtkXMLPolyDataWriter()
     writer.SetInputData(data)
     writer.SetDataModeToBinary()  # see surfaces.py: not every VTK reads appended data
+    # Four times as fast as zlib, at a sixth more bytes: a window that is closed writes before it ends.
+    writer.SetCompressorTypeToLZ4()
     writer.WriteToOutputStringOn()
     if not writer.Write():
         raise OutputError("VTK could not turn the data into a .vtp file. Is there memory for it?")

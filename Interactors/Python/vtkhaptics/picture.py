@@ -83,6 +83,7 @@ def save_window(window, path, scale=2, inputs=()):
     shot = vtkWindowToImageFilter()
     shot.SetInput(window)
     shot.SetScale(scale)
+    shot.SetShouldRerender(scale > 1)
     shot.ReadFrontBufferOff()
     resize = vtkImageResize()
     resize.SetInputConnection(shot.GetOutputPort())
@@ -166,7 +167,7 @@ class Picture:
         tubes = vtkTubeFilter()
         tubes.SetInputData(stroke)
         tubes.SetRadius(radius)
-        tubes.SetNumberOfSides(12)
+        tubes.SetNumberOfSides(8)
         tubes.CappingOn()
         colors = _force_colors(strongest)
         mapper = vtkPolyDataMapper()
@@ -208,9 +209,9 @@ class Picture:
         half = math.tan(math.radians(0.5 * camera.GetViewAngle()))
         return share_of_height * 2.0 * camera.GetDistance() * half
 
-    def save(self, path, inputs=()):
+    def save(self, path, inputs=(), scale=2):
         """Writes a PNG, as save_window() does."""
-        save_window(self.window, path, inputs=inputs)
+        save_window(self.window, path, scale, inputs)
 
 
 def _force_colors(strongest):
@@ -228,14 +229,18 @@ def _force_colors(strongest):
     return table
 
 
-def stroke_lines(trace, every=4):
-    """The parts of a trace in contact, as lines with the point array ForceMagnitude [N]."""
+def stroke_lines(trace, step):
+    """The parts of a trace in contact, as lines with the point array ForceMagnitude [N]; their points
+    are about a `step` apart [world unit], however long the hand took or rested."""
+    way = vtk_to_numpy(trace.GetPoints().GetData()).astype(float)
+    way = np.cumsum(np.linalg.norm(np.diff(way, axis=0, prepend=way[:1]), axis=1))
     force = np.linalg.norm(vtk_to_numpy(trace.GetPointData().GetArray("Force")), axis=1)
     touching = vtk_to_numpy(trace.GetPointData().GetArray("ActiveConstraints")) > 0
     lines = vtkCellArray()
     edges = np.flatnonzero(np.diff(np.concatenate([[False], touching, [False]]).astype(int)))
     for begin, end in edges.reshape(-1, 2):
-        ids = range(begin, end, every)
+        _, first = np.unique(np.floor(way[begin:end] / step), return_index=True)
+        ids = [int(i) for i in begin + first]
         lines.InsertNextCell(len(ids))
         for id_ in ids:
             lines.InsertCellPoint(id_)

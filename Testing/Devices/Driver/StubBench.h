@@ -24,8 +24,8 @@ class StubBench : public DriverBench
 public:
   StubBench(const char* library, const char* function)
     : Library(library)
-    , Memory(mmap(
-        nullptr, sizeof(StateType), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0))
+    , Memory(
+        mmap(nullptr, sizeof(StateType), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0))
     , State(new (this->Memory) StateType)
   {
     UseState(library, function, this->State);
