@@ -621,3 +621,84 @@ TEST(PlainView, AFlushSeamThatMovesOrIsStoredInSinglePrecisionIsNotFelt)
     EXPECT_LT(std::hypot(carried[0], carried[1]), 1e-9) << i;
   }
 }
+
+//   ____o     over the rim, to within a clearance, with the HIP in the wall's very plane: what the
+//       |     HIP does when it gets there must not decide whether it is let go of at rest
+//       x
+TEST(PlainView, AnEdgeOverWhichTheHipIsInTheWallLetsGoOfAHandAtRest)
+{
+  for (const double scale : { 1.0, 1e-6, 1e6 })
+  {
+    const auto surface = MakeSurface(Scaled(Box(0.5, 0.5, 0.5), scale), Side::Automatic);
+    for (const double inside : { 0.0, 0.4, 1.0 }) // clearances
+    {
+      const double x = 0.5 * scale - inside * surface->Clearance();
+      for (const bool creeps : { false, true })
+      {
+        GodObject god({ surface });
+        god.Place({ x, 0.13 * scale, 0.6 * scale });
+        // Pressed by a clearance's depth, where no way is short enough; then deep.
+        for (int i = 0; i < 3; ++i)
+        {
+          god.Update({ x, 0.13 * scale, 0.5 * scale });
+        }
+        for (int i = 0; creeps && i < 20; ++i)
+        {
+          god.Update({ x, 0.13 * scale, (0.3 - 1e-4 * i) * scale });
+        }
+        const Vec3 hip = { x, 0.13 * scale, 0.2 * scale };
+        for (int i = 0; i < 8; ++i)
+        {
+          god.Update(hip);
+        }
+        EXPECT_LE(god.Current().Penetration, 8.0 * surface->Clearance())
+          << scale << ", " << inside << ", " << creeps;
+      }
+    }
+    // Farther inside than what it is kept off, it is held: the facet is there.
+    GodObject god({ surface });
+    const Vec3 hip = { 0.499 * scale, 0.13 * scale, 0.2 * scale };
+    god.Place({ hip[0], hip[1], 0.6 * scale });
+    for (int i = 0; i < 8; ++i)
+    {
+      god.Update(hip);
+    }
+    EXPECT_NEAR(god.Current().Penetration, 0.3 * scale, 1e-9 * scale);
+  }
+}
+
+// Corners with ridges and folds, at rest: three planes hold, but between two ridges there is a way
+// that is along neither a facet nor two. Places and HIPs are those of a soak.
+TEST(PlainView, ACornerOfSpikesDoesNotHoldAHandAtRest)
+{
+  struct Hold
+  {
+    unsigned Seed;
+    Side TouchedSide;
+    Vec3 Place, Hip;
+  };
+  const Hold holds[] = {
+    { 1, Side::Front, { 0.34068996163670912, 0.10263799812150388, -0.55124793755411294 },
+      { -0.26071569776190995, 0.10139245239494955, 0.33020941964679051 } },
+    { 2, Side::Front, { 0.20233408161794481, 0.20474476761951801, 0.046843797310228946 },
+      { 0.13616300368861126, -0.68269616967847102, 0.87574482080376626 } },
+    { 2, Side::Both, { -0.24290555903047079, -0.36872079248555062, 0.16291216701776209 },
+      { -0.55723330072413324, -0.56596517056077567, 0.13537771196558912 } },
+    { 1, Side::Both, { 0.18155087055161578, 0.46843890816890449, 0.066723132580024921 },
+      { -0.37175614369925314, 0.87241137613214215, -0.47635931270467124 } },
+  };
+  for (const Hold& hold : holds)
+  {
+    const auto surface = MakeSurface(Star(3, 1.0, 0.9, hold.Seed), hold.TouchedSide);
+    GodObject god({ surface });
+    god.Place(god.WayOrigin() + hold.Place);
+    const Vec3 hip = god.WayOrigin() + hold.Hip;
+    const double before = Length(hold.Hip - hold.Place);
+    for (int i = 0; i < 6; ++i)
+    {
+      god.Update(hip);
+    }
+    EXPECT_LT(god.Current().Penetration, 0.98 * before) << hold.Seed;
+    EXPECT_EQ(god.Current().Status, UpdateStatus::Touching);
+  }
+}

@@ -31,7 +31,8 @@ struct ActivePlane
   bool IsFlipped = false; ///< the god-object is on the facet's back
   /// Met from so far away that its clearance is more than it has to be: to be met anew.
   bool IsFar = false;
-  /// Not the facet's own, which is a line but for rounding: across the way that met it.
+  /// Not the facet's own, which is a line but for rounding, with nothing beside it on a side:
+  /// across the way that met it.
   bool IsOfWire = false;
 
   /// So many clearances over the plane a point is in front of it for certain.

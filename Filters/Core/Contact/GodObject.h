@@ -98,7 +98,8 @@ struct Contact
 /// HIP. That no plane stops it that is not a facet's there: a facet reaches beyond an edge that it
 /// shares by a quarter of a clearance only, beyond an open edge or corner by 4 clearances, and
 /// there it does not hold what goes along a plane that it lies under (WorkingSet::Covers). Of a HIP
-/// at rest it also leaves a corner along any facet within 64 clearances. Which of the facets met at
+/// at rest it also leaves a corner along any facet within 64 clearances, and in any of 512
+/// directions that lead nearer, tried in four updates. Which of the facets met at
 /// once counts is decided by more than rounding: it is the same at every scale, place and frame.
 ///
 /// **Surfaces that move** see the god-object move, and its way in their own frame is certified like

@@ -124,6 +124,7 @@ private:
     Vector Position{ 0 };
     Vector Pull{ 0 };
     std::array<FacetId, 3> Facets;
+    int Rounds = 0; ///< of tries while the goal was at rest
   };
   Refusal Refused;
   Friction Cone;

@@ -29,6 +29,37 @@ constexpr double SameDirection = 1.0 - 5e-8;
 constexpr double AlmostSameDirection = 0.98;
 /// A position is another one from so many clearances on.
 constexpr double SamePlace = 0.25;
+/// A pull that has grown by more than that has room for ways that were too long.
+constexpr double SameLength = 2.0;
+/// Where a goal rests, so many ways are tried in all directions that lead nearer to it, in each of
+/// so many updates others; they are at least so many clearances long.
+constexpr int WaysAround = 128;
+constexpr int RoundsAtRest = 4;
+constexpr std::int32_t MostLookedUpAtRest = 1 << 16; ///< triangles, each as often as it is
+constexpr double LengthAround = 32.0;
+
+/// The `i`th of `count` unit directions, evenly over the half-sphere about `ahead`, from there
+/// outwards along a spiral (of Fibonacci) that begins towards `side`.
+Vector DirectionAround(int i, int count, const Vector& ahead, const Vector& side)
+{
+  const double goldenAngle = M_PI * (3.0 - std::sqrt(5.0));
+  const double along = 1.0 - (i + 0.5) / count;
+  const double across = std::sqrt(1.0 - along * along);
+  const Vector other = glm::cross(ahead, side);
+  return along * ahead +
+    across * (std::cos(goldenAngle * i) * side + std::sin(goldenAngle * i) * other);
+}
+
+/// A unit vector across `ahead`, that of `wish` where it is not along it.
+Vector Across(const Vector& ahead, const Vector& wish)
+{
+  const Vector axis = std::abs(ahead.x) < 0.5 ? Vector(1, 0, 0) : Vector(0, 1, 0);
+  const Vector across = wish - glm::dot(wish, ahead) * ahead;
+  const double length = glm::length(across);
+  return length > 1e-3 * glm::length(wish) && length > 0.0
+    ? across / length
+    : glm::normalize(axis - glm::dot(axis, ahead) * ahead);
+}
 
 /// The planes that a god-object tries to go along.
 struct Tries
@@ -89,6 +120,26 @@ struct Tries
     step = length * along;
     return length > 0.0 && length <= reach;
   }
+
+  /// How far it is in a direction, at least LengthAround, until a plane that holds is left in
+  /// front: short of that, nearer is only what the planes are kept off.
+  double LengthBehindOne(const Vector& position, const Vector& direction) const
+  {
+    double length = HUGE_VAL;
+    double least = 0.0;
+    for (int i = 0; i < this->Held; ++i)
+    {
+      const ActivePlane& plane = this->Planes[i];
+      const double approach = -glm::dot(plane.Normal, direction);
+      least = std::max(least, LengthAround * plane.Clearance);
+      if (approach > 1e-6)
+      {
+        const double height = glm::dot(plane.Normal, position - plane.Anchor);
+        length = std::min(length, (height + DepthBehind * plane.Clearance) / approach);
+      }
+    }
+    return std::max(length, least);
+  }
 };
 }
 
@@ -118,13 +169,8 @@ bool GodObject::Implementation::Release(const Vector& goal)
     tries.Add(plane);
   }
   tries.Held = tries.Size;
-  const auto attempt = [&](int first, int second)
+  const auto tryStep = [&](const Vector& step)
   {
-    Vector step;
-    if (!tries.FindStep(this->Position, pull, first, second, step))
-    {
-      return false;
-    }
     const Vector to = this->Position + step;
     for (std::size_t i = this->First; i < this->Last; ++i)
     {
@@ -148,6 +194,11 @@ bool GodObject::Implementation::Release(const Vector& goal)
     this->Active.Clear();
     return true;
   };
+  const auto attempt = [&](int first, int second)
+  {
+    Vector step;
+    return tries.FindStep(this->Position, pull, first, second, step) && tryStep(step);
+  };
   int tried = 0;
   const auto attemptAll = [&]
   {
@@ -167,13 +218,43 @@ bool GodObject::Implementation::Release(const Vector& goal)
     }
     return false;
   };
+  const auto attemptAround = [&]
+  {
+    const double distance = glm::length(pull);
+    const Vector ahead = pull / distance;
+    const Vector side = Across(ahead, tries.Planes[0].Anchor - this->Position);
+    std::int32_t gathered = 0;
+    for (std::size_t i = this->First; i < this->Last; ++i)
+    {
+      gathered += this->Sets[i].GatheredTriangles();
+    }
+    // Fewer where a great many triangles meet, so that the update stays as short as any.
+    const int most = std::min(WaysAround, MostLookedUpAtRest / std::max(gathered, 1));
+    constexpr int count = RoundsAtRest * WaysAround;
+    for (int k = 0; k < most && tries.Held > 0; ++k)
+    {
+      const int i = this->Refused.Rounds - 1 + RoundsAtRest * (k * (WaysAround / most));
+      const Vector direction = DirectionAround(i, count, ahead, side);
+      const double length = tries.LengthBehindOne(this->Position, direction);
+      if (length <= glm::dot(direction, pull) && tryStep(length * direction))
+      {
+        return true;
+      }
+    }
+    return false;
+  };
+  if (this->Refused.Rounds > 1)
+  {
+    this->ReleasesLeft = 0;
+    return attemptAround();
+  }
   if (attempt(-1, -1) || attemptAll())
   {
     return true;
   }
-  if (this->GoalMoved > RestingShare * glm::length(pull))
+  if (this->Refused.Rounds == 0)
   {
-    return false;
+    return false; // on its way
   }
   tries.Most = MostPlanesAtRest;
   for (std::size_t i = this->First; i < this->Last; ++i)
@@ -181,7 +262,7 @@ bool GodObject::Implementation::Release(const Vector& goal)
     this->Sets[i].VisitNear(NearBy, [&](const ActivePlane& plane) { tries.Add(plane); });
   }
   this->ReleasesLeft = 0;
-  return attemptAll();
+  return attemptAll() || attemptAround();
 }
 
 /// Whether a motion that is clear does not squeeze through a gap that facets close by reaching over
@@ -216,16 +297,20 @@ bool GodObject::Implementation::MayBeReleased(const Vector& pull)
   }
   const std::array<FacetId, 3> facets = this->Active.SupportFacets();
   const double same = SamePlace / DepthBehind * least;
-  const double cosine =
-    this->GoalMoved > RestingShare * distance ? AlmostSameDirection : SameDirection;
-  const double lengths = distance * glm::length(this->Refused.Pull);
+  const bool isAtRest = this->GoalMoved <= RestingShare * distance;
+  const double cosine = isAtRest ? SameDirection : AlmostSameDirection;
+  const double before = glm::length(this->Refused.Pull);
   const bool isSame = SquaredLength(this->Position - this->Refused.Position) <= same * same &&
-    facets == this->Refused.Facets && glm::dot(pull, this->Refused.Pull) >= cosine * lengths &&
-    lengths > 0.0;
+    facets == this->Refused.Facets &&
+    glm::dot(pull, this->Refused.Pull) >= cosine * distance * before &&
+    distance <= SameLength * before;
   if (!isSame)
   {
-    this->Refused = { this->Position, pull, facets };
+    this->Refused = { this->Position, pull, facets, 0 };
   }
-  return !isSame;
+  // A moving goal has fewer tries: where it comes to rest, the others are due.
+  const bool isDue = !isSame || (isAtRest && this->Refused.Rounds < RoundsAtRest);
+  this->Refused.Rounds += isDue && isAtRest ? 1 : 0;
+  return isDue;
 }
 }

@@ -107,6 +107,9 @@ public:
   /// in a sweep. `inTheWay`: set to the plane of a facet that is, if one is known.
   bool IsClearNear(const Vector& target, ActivePlane& inTheWay);
 
+  /// How many triangles a certificate looks at.
+  std::int32_t GatheredTriangles() const { return this->Count; }
+
   /// Calls visit(plane) for the gathered facets within so many of their clearances of the
   /// god-object; of the plane, only Facet and Normal are set.
   template <class Visitor>
