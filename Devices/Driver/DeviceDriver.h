@@ -1,6 +1,7 @@
 #ifndef Haptics_DeviceDriver_h
 #define Haptics_DeviceDriver_h
 
+#include "haptics/Devices/DevicePhase.h"
 #include "haptics/Devices/Driver/ForceLink.h"
 
 #include <atomic>
@@ -23,15 +24,6 @@ struct DriverStopped
 {
 };
 
-/// Where a device is on its way.
-enum class DriverPhase
-{
-  Opening,
-  Homing, ///< waits for somebody to calibrate it
-  Ready,
-  Faulted
-};
-
 /// What a device can do, as it reports itself or its maker documents it.
 struct DriverLimits
 {
@@ -45,7 +37,7 @@ struct DriverLimits
 /// What a driver's thread reports.
 struct DriverStatus
 {
-  DriverPhase Phase = DriverPhase::Opening;
+  DevicePhase Phase = DevicePhase::Opening;
   std::string Text; ///< what goes on, or what is wrong and what helps
   DriverLimits Limits;
   bool IsRealTime = false; ///< whether the thread got real-time priority
@@ -59,7 +51,7 @@ class ForceExchange;
 class DriverContext
 {
 public:
-  virtual void Report(DriverPhase phase, const std::string& text) = 0;
+  virtual void Report(DevicePhase phase, const std::string& text) = 0;
   virtual void SetLimits(const DriverLimits& limits) = 0;
   /// Throws DriverStopped once the owner wants the device let go of.
   virtual void CheckStop() const = 0;

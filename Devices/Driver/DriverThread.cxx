@@ -33,7 +33,7 @@ public:
   {
   }
 
-  void Report(DriverPhase phase, const std::string& text) override
+  void Report(DevicePhase phase, const std::string& text) override
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
     this->Status.Phase = phase;
@@ -137,12 +137,12 @@ private:
         [&]
         {
           link->Up.store(true, std::memory_order_release);
-          this->Report(DriverPhase::Ready, this->GetStatus().Limits.Name + " is ready.");
+          this->Report(DevicePhase::Ready, this->GetStatus().Limits.Name + " is ready.");
         });
     }
     catch (const DeviceFault& fault)
     {
-      this->Report(DriverPhase::Faulted, fault.what());
+      this->Report(DevicePhase::Faulted, fault.what());
     }
   }
 

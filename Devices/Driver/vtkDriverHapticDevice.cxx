@@ -4,30 +4,6 @@
 #include "haptics/Devices/Driver/ForceChannel.h"
 
 #include <algorithm>
-#include <system_error>
-
-namespace
-{
-int StateOf(haptics::DriverPhase phase)
-{
-  switch (phase)
-  {
-    case haptics::DriverPhase::Opening:
-      return vtkHapticDevice::Opening;
-    case haptics::DriverPhase::Homing:
-      return vtkHapticDevice::Homing;
-    case haptics::DriverPhase::Ready:
-      return vtkHapticDevice::Ready;
-    default:
-      return vtkHapticDevice::Faulted;
-  }
-}
-
-vtkTypeInt64 Load(const std::atomic<std::uint64_t>& count)
-{
-  return static_cast<vtkTypeInt64>(count.load(std::memory_order_relaxed));
-}
-}
 
 vtkDriverHapticDevice::vtkDriverHapticDevice()
   : Link(std::make_shared<haptics::ForceLink>())
@@ -42,47 +18,14 @@ vtkDriverHapticDevice::vtkDriverHapticDevice()
 
 vtkDriverHapticDevice::~vtkDriverHapticDevice() = default;
 
-bool vtkDriverHapticDevice::Open()
+void vtkDriverHapticDevice::BeginThread()
 {
-  if (this->IsOpen())
-  {
-    return true;
-  }
-  if (this->Driver && this->GetState() != Faulted)
-  {
-    return false;
-  }
-  this->LetGo();
   this->Ending.reset();
-  try
-  {
-    this->Driver = std::make_unique<haptics::DriverThread>(
-      this->MakeDriver(), this->ForceLimit, this->Reconnect);
-  }
-  catch (const std::system_error& failure)
-  {
-    const std::string problem =
-      std::string("The system gave no thread for the device: ") + failure.what();
-    const bool changed = this->ChangeStatusMessage(problem);
-    this->Fail(Faulted, problem);
-    this->TellStatusMessage(changed);
-    return false;
-  }
-  const bool changed = this->ChangeStatusMessage("");
-  this->SetState(Opening);
-  this->TellStatusMessage(changed);
-  return false;
+  this->Driver =
+    std::make_unique<haptics::DriverThread>(this->MakeDriver(), this->ForceLimit, this->Reconnect);
 }
 
-void vtkDriverHapticDevice::Close()
-{
-  const bool changed = this->ChangeStatusMessage("");
-  this->LetGo();
-  this->BecomeClosed();
-  this->TellStatusMessage(changed);
-}
-
-void vtkDriverHapticDevice::LetGo()
+void vtkDriverHapticDevice::EndThread()
 {
   if (this->Driver)
   {
@@ -92,85 +35,52 @@ void vtkDriverHapticDevice::LetGo()
   this->Force.reset();
 }
 
-void vtkDriverHapticDevice::Update()
+bool vtkDriverHapticDevice::HasThread() const
 {
-  if (!this->Driver)
-  {
-    return;
-  }
-  this->Follow(this->Driver->GetStatus());
-  // Any other loss the driver reports itself, once it has left the device without force.
-  if (this->IsOpen() && this->Force->HasStarved())
-  {
-    const std::string problem =
-      "No new position of the device came for 0.2 s: the machine is too busy, or the vendor's "
-      "software hangs. Relieve the machine or start that software anew, then open the device "
-      "again.";
-    const bool changed = this->ChangeStatusMessage(problem);
-    this->LetGo();
-    this->Fail(Faulted, problem);
-    this->TellStatusMessage(changed);
-  }
+  return this->Driver != nullptr;
 }
 
-void vtkDriverHapticDevice::Follow(const haptics::DriverStatus& status)
+void vtkDriverHapticDevice::FollowThread()
 {
-  if (this->IsOpen() && status.Link != this->Link)
-  {
-    this->Fail(Faulted, "The device was lost, and is being brought up again.");
-  }
+  const haptics::DriverStatus status = this->Driver->GetStatus();
+  const bool isNewSession = status.Link != this->Link;
   this->Link = status.Link;
-  this->RealTime = status.IsRealTime;
-  const bool changed = this->ChangeStatusMessage(status.Text);
-  const int state = StateOf(status.Phase);
-  if (state == Faulted)
+  this->HasRealTimePriority = status.IsRealTime;
+  if (status.Phase == haptics::DevicePhase::Ready && (isNewSession || !this->IsOpen()))
   {
-    if (this->GetState() != Faulted || changed)
-    {
-      this->Fail(Faulted, status.Text);
-    }
+    this->BecomeAble(status.Limits);
   }
-  else if (state != Ready)
-  {
-    this->SetState(state);
-  }
-  else if (!this->IsOpen())
-  {
-    this->BecomeAble(status);
-    this->Force = std::make_shared<haptics::ForceChannel>(this->Link);
-    this->BecomeReady(this->Force);
-  }
-  this->TellStatusMessage(changed);
+  this->Follow(status.Phase, status.Text, isNewSession);
 }
 
-void vtkDriverHapticDevice::BecomeAble(const haptics::DriverStatus& status)
+// Any other loss the driver reports itself, once it has left the device without force.
+std::string vtkDriverHapticDevice::GetProblem() const
 {
-  this->ModelName = status.Limits.Name;
-  this->MaximumForce = status.Limits.MaximumForce;
-  this->MaximumStiffness = status.Limits.MaximumStiffness;
-  this->NumberOfButtons = status.Limits.Buttons;
-  std::copy(status.Limits.Workspace.begin(), status.Limits.Workspace.end(), this->WorkspaceBounds);
+  return this->Force->HasStarved()
+    ? "No new position of the device came for 0.2 s: the machine is too busy, or the vendor's "
+      "software hangs. Relieve the machine or start that software anew, then open the device "
+      "again."
+    : "";
 }
 
-// Changed before the state and told after it: who hears of either can read both.
-bool vtkDriverHapticDevice::ChangeStatusMessage(const std::string& message)
+std::shared_ptr<haptics::MonitoredChannel> vtkDriverHapticDevice::MakeChannel()
 {
-  const bool changed = this->StatusMessage != message;
-  this->StatusMessage = message;
-  return changed;
+  this->Force = std::make_shared<haptics::ForceChannel>(this->Link);
+  return this->Force;
 }
 
-void vtkDriverHapticDevice::TellStatusMessage(bool changed)
+const haptics::LinkCounts& vtkDriverHapticDevice::GetCounts() const
 {
-  if (changed)
-  {
-    this->InvokeEvent(StatusMessageChangedEvent);
-  }
+  return *this->Link;
 }
 
-const char* vtkDriverHapticDevice::GetStatusMessage() const
+void vtkDriverHapticDevice::BecomeAble(const haptics::DriverLimits& limits)
 {
-  return this->StatusMessage.c_str();
+  this->ModelName = limits.Name;
+  this->MaximumForce = limits.MaximumForce;
+  this->MaximumStiffness = limits.MaximumStiffness;
+  this->NumberOfButtons = limits.Buttons;
+  std::copy(limits.Workspace.begin(), limits.Workspace.end(), this->WorkspaceBounds);
 }
 
 bool vtkDriverHapticDevice::SetDeviceId(const char* id)
@@ -191,39 +101,18 @@ void vtkDriverHapticDevice::GetOrientation(double orientation[4])
   std::copy(shown.begin(), shown.end(), orientation);
 }
 
-vtkTypeInt64 vtkDriverHapticDevice::GetNumberOfExchanges() const
-{
-  return Load(this->Link->Exchanges);
-}
-
-vtkTypeInt64 vtkDriverHapticDevice::GetNumberOfLateCommands() const
-{
-  return Load(this->Link->LateCommands);
-}
-
 vtkTypeInt64 vtkDriverHapticDevice::GetNumberOfReleases() const
 {
   return Load(this->Link->Releases);
-}
-
-double vtkDriverHapticDevice::GetExchangeTime(double share) const
-{
-  return this->Link->Times.Within(share);
 }
 
 void vtkDriverHapticDevice::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "TriedOnHardware: no, by nobody who has reported it\n";
-  os << indent << "StatusMessage: " << this->StatusMessage << "\n";
   os << indent << "DeviceId: " << this->DeviceId << "\n";
   os << indent << "ModelName: " << this->ModelName << "\n";
   os << indent << "ForceLimit: " << this->ForceLimit << " N\n";
   os << indent << "Reconnect: " << (this->Reconnect ? "on" : "off") << "\n";
-  os << indent << "RealTimePriority: " << (this->RealTime ? "yes" : "no") << "\n";
-  os << indent << "ExchangeTime: " << this->GetExchangeTime(0.5) << " s (median), "
-     << this->GetExchangeTime(0.99) << " s (99 %)\n";
-  os << indent << "NumberOfExchanges: " << this->GetNumberOfExchanges() << "\n";
-  os << indent << "NumberOfLateCommands: " << this->GetNumberOfLateCommands() << "\n";
   os << indent << "NumberOfReleases: " << this->GetNumberOfReleases() << "\n";
 }

@@ -3,9 +3,7 @@
  * @brief   a device that a thread of its own exchanges with, a thousand times a second
  *
  * What the drivers of devices that people own have in common; each of them is a class derived from
- * it. Open() begins to bring the device up and returns at once. Call Update() now and then
- * (vtkHapticServo and vtkHapticScene do) until the state is Ready or Faulted; GetStatusMessage()
- * reports what goes on, what is wrong, and what helps:
+ * it:
  *
  *     Closed -> Opening -> Homing -> Ready -> Faulted, Closed
  *
@@ -21,13 +19,13 @@
  *
  * GUI thread.
  *
- * @sa vtkHapticDevice vtkHaplyHapticDevice vtkOpenHapticsDevice vtkForceDimensionHapticDevice
- * vtkSpaceMouseHapticDevice
+ * @sa vtkThreadedHapticDevice vtkHaplyHapticDevice vtkOpenHapticsDevice
+ * vtkForceDimensionHapticDevice vtkSpaceMouseHapticDevice
  */
 #ifndef Haptics_vtkDriverHapticDevice_h
 #define Haptics_vtkDriverHapticDevice_h
 
-#include "vtkHapticDevice.h"
+#include "vtkThreadedHapticDevice.h"
 
 #include <memory>
 #include <string>
@@ -37,27 +35,15 @@ namespace haptics
 class DeviceDriver;
 class DriverThread;
 class ForceChannel;
-struct DriverStatus;
+struct DriverLimits;
 struct ForceLink;
 }
 
-class VTKHAPTICSDEVICES_EXPORT vtkDriverHapticDevice : public vtkHapticDevice
+class VTKHAPTICSDEVICES_EXPORT vtkDriverHapticDevice : public vtkThreadedHapticDevice
 {
 public:
-  vtkAbstractTypeMacro(vtkDriverHapticDevice, vtkHapticDevice);
+  vtkAbstractTypeMacro(vtkDriverHapticDevice, vtkThreadedHapticDevice);
   void PrintSelf(ostream& os, vtkIndent indent) override;
-
-  /// From Update(), Open() and Close(); no call data.
-  enum DriverEvents
-  {
-    StatusMessageChangedEvent = vtkCommand::UserEvent + 4120
-  };
-
-  bool Open() override;
-  /// Let go of the device, at any time. Does not wait for it.
-  void Close() override;
-  void Update() override;
-  const char* GetStatusMessage() const override;
 
   /// Any text; which ids there are the class of the device says.
   bool SetDeviceId(const char* id) override;
@@ -87,16 +73,9 @@ public:
   /// device does not measure it. No force depends on it.
   void GetOrientation(double orientation[4]);
 
-  ///@{
-  /// Since the device was opened: exchanges; forces that were withdrawn because the servo was
-  /// silent for 20 ms; how often the driver let go of all force by itself, these included.
-  vtkTypeInt64 GetNumberOfExchanges() const;
-  vtkTypeInt64 GetNumberOfLateCommands() const;
+  /// How often the driver let go of all force by itself since the device was opened, late commands
+  /// included.
   vtkTypeInt64 GetNumberOfReleases() const;
-  ///@}
-  /// The time [s] within which a share (0 to 1) of the exchanges was over, to 20 us and up to 20
-  /// ms.
-  double GetExchangeTime(double share) const;
 
 protected:
   vtkDriverHapticDevice();
@@ -105,15 +84,19 @@ protected:
   /// For Open(): what talks to the device, with the settings of now.
   virtual std::unique_ptr<haptics::DeviceDriver> MakeDriver() = 0;
 
+  void BeginThread() override;
+  void EndThread() override;
+  bool HasThread() const override;
+  void FollowThread() override;
+  std::string GetProblem() const override;
+  std::shared_ptr<haptics::MonitoredChannel> MakeChannel() override;
+  const haptics::LinkCounts& GetCounts() const override;
+
 private:
   vtkDriverHapticDevice(const vtkDriverHapticDevice&) = delete;
   void operator=(const vtkDriverHapticDevice&) = delete;
 
-  void Follow(const haptics::DriverStatus& status);
-  void BecomeAble(const haptics::DriverStatus& status);
-  void LetGo();
-  bool ChangeStatusMessage(const std::string& message);
-  void TellStatusMessage(bool changed);
+  void BecomeAble(const haptics::DriverLimits& limits);
 
   std::string DeviceId;
   double ForceLimit = 2.0;
@@ -123,9 +106,7 @@ private:
   std::unique_ptr<haptics::DriverThread> Ending; // asked to stop; joined before the next begins
   std::shared_ptr<haptics::ForceLink> Link;
   std::shared_ptr<haptics::ForceChannel> Force;
-  std::string StatusMessage;
   std::string ModelName;
-  bool RealTime = false;
 };
 
 #endif

@@ -95,7 +95,7 @@ void FalconTransport::ChangeStatus(Change change)
   change(this->Status);
 }
 
-void FalconTransport::Tell(FalconPhase phase, const std::string& text)
+void FalconTransport::Tell(DevicePhase phase, const std::string& text)
 {
   this->ChangeStatus(
     [&](FalconStatus& status)
@@ -114,7 +114,7 @@ void FalconTransport::Run()
   }
   catch (const FalconFault& fault)
   {
-    this->Tell(FalconPhase::Faulted, fault.what());
+    this->Tell(DevicePhase::Faulted, fault.what());
   }
   catch (const FalconStopped&)
   {
@@ -136,7 +136,7 @@ void FalconTransport::RunSessions()
     }
     catch (const FalconFault& fault)
     {
-      this->Tell(FalconPhase::Faulted, fault.what());
+      this->Tell(DevicePhase::Faulted, fault.what());
     }
     do
     {
@@ -153,7 +153,7 @@ void FalconTransport::Session(FalconUsb& usb)
   this->ChangeStatus(
     [&](FalconStatus& status)
     {
-      status.Phase = FalconPhase::Opening;
+      status.Phase = DevicePhase::Opening;
       status.Text = "Looking for the Falcon.";
       status.Progress = 0.0;
       status.Arrivals = usb.GetArrivals();
@@ -163,14 +163,14 @@ void FalconTransport::Session(FalconUsb& usb)
   const Parting parting(usb, *link);
   FalconExchange exchange(usb, *link);
   this->BringUp(usb, exchange);
-  exchange.Home([this](std::uint8_t homed) { this->Tell(FalconPhase::Homing, HomingText(homed)); });
+  exchange.Home([this](std::uint8_t homed) { this->Tell(DevicePhase::Homing, HomingText(homed)); });
   exchange.Serve(this->Settings.CommandTimeout,
-    [this] { this->Tell(FalconPhase::Ready, "The Falcon is ready."); });
+    [this] { this->Tell(DevicePhase::Ready, "The Falcon is ready."); });
 }
 
 void FalconTransport::BringUp(FalconUsb& usb, FalconExchange& exchange)
 {
-  this->Tell(FalconPhase::Opening, "Setting up the Falcon.");
+  this->Tell(DevicePhase::Opening, "Setting up the Falcon.");
   FalconBoot::PrepareExchange(usb);
   if (exchange.IsAnswered())
   {
@@ -190,7 +190,7 @@ void FalconTransport::Upload(FalconUsb& usb, FalconExchange& exchange)
     FalconBoot::ReadFirmwareFile(this->Settings.FirmwareFile);
   for (int attempt = 1;; ++attempt)
   {
-    this->Tell(FalconPhase::LoadingFirmware,
+    this->Tell(DevicePhase::LoadingFirmware,
       "Loading the Falcon's firmware, attempt " + std::to_string(attempt) + " of " +
         std::to_string(UploadTries) + ".");
     try

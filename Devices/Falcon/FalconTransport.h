@@ -1,6 +1,7 @@
 #ifndef Haptics_FalconTransport_h
 #define Haptics_FalconTransport_h
 
+#include "haptics/Devices/DevicePhase.h"
 #include "haptics/Devices/Falcon/FalconLink.h"
 #include "haptics/Devices/ProcessOwner.h"
 #include "vtkHapticsDevicesModule.h"
@@ -26,20 +27,10 @@ struct FalconSettings
   double CommandTimeout = 0.02; ///< [s] after which a torque that nobody renewed is withdrawn
 };
 
-/// Where a Falcon is on its way.
-enum class FalconPhase
-{
-  Opening,
-  LoadingFirmware,
-  Homing,
-  Ready,
-  Faulted
-};
-
 /// What a Falcon's thread tells.
 struct FalconStatus
 {
-  FalconPhase Phase = FalconPhase::Opening;
+  DevicePhase Phase = DevicePhase::Opening;
   std::string Text;          ///< for people: what goes on, what is wrong, what to do
   double Progress = 0.0;     ///< of the firmware upload, 0 to 1
   unsigned int Arrivals = 0; ///< Falcons seen plugged in so far
@@ -81,7 +72,7 @@ private:
   void Upload(FalconUsb& usb, FalconExchange& exchange);
   template <typename Change>
   void ChangeStatus(Change change);
-  void Tell(FalconPhase phase, const std::string& text);
+  void Tell(DevicePhase phase, const std::string& text);
 
   const FalconSettings Settings;
   std::atomic<bool> Stop{ false };

@@ -11,37 +11,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <system_error>
 
 namespace
 {
 constexpr double SmallestTorqueScale = 100.0;  // [1/(N m)]
 constexpr double LargestTorqueScale = 20000.0; // [1/(N m)]
 
-int StateOf(haptics::FalconPhase phase)
-{
-  switch (phase)
-  {
-    case haptics::FalconPhase::Opening:
-      return vtkHapticDevice::Opening;
-    case haptics::FalconPhase::LoadingFirmware:
-      return vtkHapticDevice::LoadingFirmware;
-    case haptics::FalconPhase::Homing:
-      return vtkHapticDevice::Homing;
-    case haptics::FalconPhase::Ready:
-      return vtkHapticDevice::Ready;
-    default:
-      return vtkHapticDevice::Faulted;
-  }
-}
-
 const haptics::DeviceRegistration Registration(
   "falcon", "Novint Falcon", []() -> vtkHapticDevice* { return vtkFalconHapticDevice::New(); });
-
-vtkTypeInt64 Load(const std::atomic<std::uint64_t>& count)
-{
-  return static_cast<vtkTypeInt64>(count.load(std::memory_order_relaxed));
-}
 }
 
 vtkStandardNewMacro(vtkFalconHapticDevice);
@@ -63,69 +40,20 @@ vtkFalconHapticDevice::vtkFalconHapticDevice()
 
 vtkFalconHapticDevice::~vtkFalconHapticDevice() = default;
 
-bool vtkFalconHapticDevice::Open()
+void vtkFalconHapticDevice::BeginThread()
 {
-  if (this->IsOpen())
-  {
-    return true;
-  }
-  if (this->Transport && this->GetState() != Faulted)
-  {
-    return false;
-  }
-  this->LetGo();
   this->Ending.reset();
   haptics::FalconSettings settings;
   settings.DeviceIndex = this->DeviceIndex;
   settings.FirmwareFile = this->FirmwareFile;
   settings.OpenOnArrival = this->OpenOnArrival;
   settings.Guardian = this->GuardianProgram;
-  try
-  {
-    this->Transport = std::make_unique<haptics::FalconTransport>(settings);
-  }
-  catch (const std::system_error& failure)
-  {
-    const std::string problem =
-      std::string("The system gave no thread for the Falcon: ") + failure.what();
-    const bool changed = this->ChangeStatusMessage(problem);
-    this->Fail(Faulted, problem);
-    this->TellStatusMessage(changed);
-    return false;
-  }
+  this->Transport = std::make_unique<haptics::FalconTransport>(settings);
   this->Arrivals = 0;
   this->FirmwareProgress = 0.0;
-  const bool changed = this->ChangeStatusMessage("");
-  this->SetState(Opening);
-  this->TellStatusMessage(changed);
-  return false;
 }
 
-void vtkFalconHapticDevice::Close()
-{
-  const bool changed = this->ChangeStatusMessage("");
-  this->LetGo();
-  this->BecomeClosed();
-  this->TellStatusMessage(changed);
-}
-
-// Changed before the state and told after it: who hears of either can read both.
-bool vtkFalconHapticDevice::ChangeStatusMessage(const std::string& message)
-{
-  const bool changed = this->StatusMessage != message;
-  this->StatusMessage = message;
-  return changed;
-}
-
-void vtkFalconHapticDevice::TellStatusMessage(bool changed)
-{
-  if (changed)
-  {
-    this->InvokeEvent(StatusMessageChangedEvent);
-  }
-}
-
-void vtkFalconHapticDevice::LetGo()
+void vtkFalconHapticDevice::EndThread()
 {
   if (this->Transport)
   {
@@ -135,62 +63,42 @@ void vtkFalconHapticDevice::LetGo()
   this->Falcon.reset();
 }
 
-void vtkFalconHapticDevice::Update()
+bool vtkFalconHapticDevice::HasThread() const
 {
-  if (!this->Transport)
-  {
-    return;
-  }
-  this->Follow(this->Transport->GetStatus());
-  // Where the channel has no problem of its own the transport is to blame. It tells the cause after
-  // its farewell, which can take 50 ms, and may then bring the device up again.
-  const std::string problem = this->IsOpen() ? this->Falcon->GetProblem() : "";
-  if (!problem.empty())
-  {
-    const bool changed = this->ChangeStatusMessage(problem);
-    this->LetGo();
-    this->Fail(Faulted, problem);
-    this->TellStatusMessage(changed);
-  }
+  return this->Transport != nullptr;
 }
 
-void vtkFalconHapticDevice::Follow(const haptics::FalconStatus& status)
+void vtkFalconHapticDevice::FollowThread()
 {
-  if (this->IsOpen() && status.Link != this->Link)
-  {
-    this->Fail(Faulted, "The Falcon was lost, and is being brought up again.");
-  }
+  const haptics::FalconStatus status = this->Transport->GetStatus();
+  const bool isNewSession = status.Link != this->Link;
   this->Link = status.Link;
-  this->RealTime = status.RealTime;
-  const bool changed = this->ChangeStatusMessage(status.Text);
-
-  const int state = StateOf(status.Phase);
-  if (state == Faulted)
-  {
-    if (this->GetState() != Faulted || changed)
-    {
-      this->Fail(Faulted, status.Text);
-    }
-  }
-  else if (state == Ready)
-  {
-    if (!this->IsOpen())
-    {
-      this->Link->Leds.store(static_cast<std::uint8_t>(this->Leds), std::memory_order_relaxed);
-      this->Falcon =
-        std::make_shared<haptics::FalconChannel>(this->Link, this->TorqueScale, this->MaximumForce);
-      this->BecomeReady(this->Falcon);
-    }
-  }
-  else
-  {
-    this->SetState(state);
-  }
-  this->TellStatusMessage(changed);
-  this->TellProgress(status);
+  this->HasRealTimePriority = status.RealTime;
+  this->Follow(status.Phase, status.Text, isNewSession);
+  this->ReportProgress(status);
 }
 
-void vtkFalconHapticDevice::TellProgress(const haptics::FalconStatus& status)
+// Where the channel has no problem of its own the transport is to blame. It reports the cause after
+// its farewell, which can take 50 ms, and may then bring the device up again.
+std::string vtkFalconHapticDevice::GetProblem() const
+{
+  return this->Falcon->GetProblem();
+}
+
+std::shared_ptr<haptics::MonitoredChannel> vtkFalconHapticDevice::MakeChannel()
+{
+  this->Link->Leds.store(static_cast<std::uint8_t>(this->Leds), std::memory_order_relaxed);
+  this->Falcon =
+    std::make_shared<haptics::FalconChannel>(this->Link, this->TorqueScale, this->MaximumForce);
+  return this->Falcon;
+}
+
+const haptics::LinkCounts& vtkFalconHapticDevice::GetCounts() const
+{
+  return *this->Link;
+}
+
+void vtkFalconHapticDevice::ReportProgress(const haptics::FalconStatus& status)
 {
   if (this->FirmwareProgress != status.Progress)
   {
@@ -202,11 +110,6 @@ void vtkFalconHapticDevice::TellProgress(const haptics::FalconStatus& status)
     this->Arrivals = status.Arrivals;
     this->InvokeEvent(DeviceArrivedEvent);
   }
-}
-
-const char* vtkFalconHapticDevice::GetStatusMessage() const
-{
-  return this->StatusMessage.c_str();
 }
 
 bool vtkFalconHapticDevice::SetDeviceId(const char* id)
@@ -290,11 +193,6 @@ void vtkFalconHapticDevice::SetLeds(int leds)
   }
 }
 
-vtkTypeInt64 vtkFalconHapticDevice::GetNumberOfExchanges() const
-{
-  return Load(this->Link->Exchanges);
-}
-
 vtkTypeInt64 vtkFalconHapticDevice::GetNumberOfMissedReplies() const
 {
   return Load(this->Link->MissedReplies);
@@ -305,20 +203,9 @@ vtkTypeInt64 vtkFalconHapticDevice::GetNumberOfMalformedPackets() const
   return Load(this->Link->MalformedPackets);
 }
 
-vtkTypeInt64 vtkFalconHapticDevice::GetNumberOfLateCommands() const
-{
-  return Load(this->Link->LateCommands);
-}
-
-double vtkFalconHapticDevice::GetExchangeTime(double share) const
-{
-  return this->Link->Times.Within(share);
-}
-
 void vtkFalconHapticDevice::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "StatusMessage: " << this->StatusMessage << "\n";
   os << indent << "DeviceIndex: " << this->DeviceIndex << "\n";
   os << indent << "FirmwareFile: " << this->FirmwareFile << "\n";
   os << indent << "FirmwareProgress: " << this->FirmwareProgress << "\n";
@@ -326,11 +213,6 @@ void vtkFalconHapticDevice::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "OpenOnArrival: " << (this->OpenOnArrival ? "on" : "off") << "\n";
   os << indent << "TorqueScale: " << this->TorqueScale << " 1/(N m)\n";
   os << indent << "Leds: " << this->Leds << "\n";
-  os << indent << "RealTimePriority: " << (this->RealTime ? "yes" : "no") << "\n";
-  os << indent << "ExchangeTime: " << this->GetExchangeTime(0.5) << " s (median), "
-     << this->GetExchangeTime(0.99) << " s (99 %)\n";
-  os << indent << "NumberOfExchanges: " << this->GetNumberOfExchanges() << "\n";
   os << indent << "NumberOfMissedReplies: " << this->GetNumberOfMissedReplies() << "\n";
   os << indent << "NumberOfMalformedPackets: " << this->GetNumberOfMalformedPackets() << "\n";
-  os << indent << "NumberOfLateCommands: " << this->GetNumberOfLateCommands() << "\n";
 }

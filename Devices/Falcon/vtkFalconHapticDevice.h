@@ -2,9 +2,7 @@
  * @class   vtkFalconHapticDevice
  * @brief   a Novint Falcon on the USB
  *
- * Open() begins to bring the device up and returns at once; a thread of its own does the rest. Call
- * Update() now and then (vtkHapticServo and vtkHapticScene do), until the state is Ready or
- * Faulted; GetStatusMessage() tells people what goes on and what they are to do:
+ * GetStatusMessage() reports what goes on while it opens, and what the user is to do:
  *
  *     Closed -> Opening -> LoadingFirmware -> Homing -> Ready -> Faulted, Closed
  *
@@ -23,12 +21,12 @@
  * The last that the device gets is zero force: on Close(), destruction and every fault that leaves
  * it able to listen, and where the process ends while a servo runs (see haptics::EmergencyStop).
  *
- * @sa vtkHapticDevice vtkHapticServo
+ * @sa vtkThreadedHapticDevice vtkHapticServo
  */
 #ifndef Haptics_vtkFalconHapticDevice_h
 #define Haptics_vtkFalconHapticDevice_h
 
-#include "vtkHapticDevice.h"
+#include "vtkThreadedHapticDevice.h"
 
 #include <memory>
 #include <string>
@@ -41,19 +39,17 @@ struct FalconLink;
 struct FalconStatus;
 }
 
-class VTKHAPTICSDEVICES_EXPORT vtkFalconHapticDevice : public vtkHapticDevice
+class VTKHAPTICSDEVICES_EXPORT vtkFalconHapticDevice : public vtkThreadedHapticDevice
 {
 public:
   static vtkFalconHapticDevice* New();
-  vtkTypeMacro(vtkFalconHapticDevice, vtkHapticDevice);
+  vtkTypeMacro(vtkFalconHapticDevice, vtkThreadedHapticDevice);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// All from Update(), the first from Open() and Close() too. ProgressEvent carries the share of
-  /// the firmware sent, a double* 0 to 1.
+  /// From Update(). ProgressEvent carries the share of the firmware sent, a double* 0 to 1.
   enum FalconEvents
   {
-    StatusMessageChangedEvent = vtkCommand::UserEvent + 4110, ///< no call data
-    DeviceArrivedEvent                                        ///< a Falcon was plugged in
+    DeviceArrivedEvent = StatusMessageChangedEvent + 1 ///< a Falcon was plugged in
   };
 
   /// Lamps, for SetLeds().
@@ -63,16 +59,6 @@ public:
     BlueLed = 2,
     RedLed = 4
   };
-
-  /**
-   * Begin to bring the device up. True where it is ready already; else false, and Update() tells
-   * how it goes. Does nothing while it is under way.
-   */
-  bool Open() override;
-  /// Let go of the device, at any time. Does not wait for it.
-  void Close() override;
-  void Update() override;
-  const char* GetStatusMessage() const override;
 
   /// An id is a DeviceIndex.
   bool SetDeviceId(const char* id) override;
@@ -122,31 +108,29 @@ public:
   /// Share of the firmware sent in this upload, 0 to 1.
   double GetFirmwareProgress() const { return this->FirmwareProgress; }
   ///@{
-  /// Since the device was opened: packets exchanged; replies that did not come in time, after which
-  /// the next packet asked for no torque; packets that were none; torques withdrawn because the
-  /// servo was silent for 20 ms.
-  vtkTypeInt64 GetNumberOfExchanges() const;
+  /// Since the device was opened: replies that did not come in time, after which the next packet
+  /// asked for no torque; packets that were none.
   vtkTypeInt64 GetNumberOfMissedReplies() const;
   vtkTypeInt64 GetNumberOfMalformedPackets() const;
-  vtkTypeInt64 GetNumberOfLateCommands() const;
   ///@}
-  /// The time [s] within which a share (0 to 1) of the exchanges was over while ready, to 20 us and
-  /// up to 20 ms. GetExchangeTime(0.99) well above 2 ms tells of a bad hub or a busy machine.
-  double GetExchangeTime(double share) const;
 
 protected:
   vtkFalconHapticDevice();
   ~vtkFalconHapticDevice() override;
 
+  void BeginThread() override;
+  void EndThread() override;
+  bool HasThread() const override;
+  void FollowThread() override;
+  std::string GetProblem() const override;
+  std::shared_ptr<haptics::MonitoredChannel> MakeChannel() override;
+  const haptics::LinkCounts& GetCounts() const override;
+
 private:
   vtkFalconHapticDevice(const vtkFalconHapticDevice&) = delete;
   void operator=(const vtkFalconHapticDevice&) = delete;
 
-  void Follow(const haptics::FalconStatus& status);
-  void TellProgress(const haptics::FalconStatus& status);
-  void LetGo();
-  bool ChangeStatusMessage(const std::string& message);
-  void TellStatusMessage(bool changed);
+  void ReportProgress(const haptics::FalconStatus& status);
 
   std::string DeviceId;
   int DeviceIndex = 0;
@@ -160,10 +144,8 @@ private:
   std::unique_ptr<haptics::FalconTransport> Ending; // asked to stop; joined before the next begins
   std::shared_ptr<haptics::FalconLink> Link;
   std::shared_ptr<haptics::FalconChannel> Falcon;
-  std::string StatusMessage;
   double FirmwareProgress = 0.0;
   unsigned int Arrivals = 0;
-  bool RealTime = false;
 };
 
 #endif

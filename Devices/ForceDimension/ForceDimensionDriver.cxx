@@ -43,7 +43,7 @@ void ForceDimensionDriver::Check(int result, const char* doing) const
 
 void ForceDimensionDriver::Open(DriverContext& context)
 {
-  context.Report(DriverPhase::Opening, "Looking for the device through Force Dimension's SDK.");
+  context.Report(DevicePhase::Opening, "Looking for the device through Force Dimension's SDK.");
   if (!this->Dhd)
   {
     this->Dhd = std::make_unique<DhdLibrary>(this->LibraryFile);
@@ -93,11 +93,11 @@ void ForceDimensionDriver::Initialize(DriverContext& context)
   if (this->MovesArm)
   {
     context.Report(
-      DriverPhase::Homing, "The arm moves by itself to find its origin: keep hands away from it.");
+      DevicePhase::Homing, "The arm moves by itself to find its origin: keep hands away from it.");
     this->Check(this->Dhd->AutoInitialize(id), "to initialise the device");
     return;
   }
-  context.Report(DriverPhase::Homing,
+  context.Report(DevicePhase::Homing,
     "Not initialised: move the arm through all of its range by hand (a Falcon: pull it out, push "
     "it "
     "in); or keep clear of it and open it with AutoInitialize on, which moves the arm.");

@@ -144,7 +144,7 @@ void HaplyDriver::Choose()
 
 void HaplyDriver::Open(DriverContext& context)
 {
-  context.Report(DriverPhase::Opening, "Looking for the Haply Inverse Service.");
+  context.Report(DevicePhase::Opening, "Looking for the Haply Inverse Service.");
   this->ReadVersion();
   context.CheckStop();
   this->Socket.Connect();
@@ -174,7 +174,7 @@ void HaplyDriver::WaitUntilCalibrated(DriverContext& context)
 {
   for (std::string missing; !(missing = Missing(this->Find())).empty();)
   {
-    context.Report(this->Find().IsPowered ? DriverPhase::Homing : DriverPhase::Opening,
+    context.Report(this->Find().IsPowered ? DevicePhase::Homing : DevicePhase::Opening,
       "The Inverse3 " + this->Id + " " + missing);
     std::this_thread::sleep_for(WaitingPeriod);
     context.CheckStop();

@@ -42,7 +42,7 @@ OpenHapticsDriver::~OpenHapticsDriver() = default;
 
 void OpenHapticsDriver::Open(DriverContext& context)
 {
-  context.Report(DriverPhase::Opening, "Looking for the device through OpenHaptics.");
+  context.Report(DevicePhase::Opening, "Looking for the device through OpenHaptics.");
   this->Fault = 0;
   this->HasBadPosition = false;
   this->Calibration = 0;
@@ -73,7 +73,7 @@ void OpenHapticsDriver::Open(DriverContext& context)
       (calibration == HdLibrary::CalibrationNeedsUpdate &&
         this->CalibrationStyle == HdLibrary::EncoderReset))
     {
-      context.Report(DriverPhase::Homing,
+      context.Report(DevicePhase::Homing,
         this->CalibrationStyle == HdLibrary::EncoderReset
           ? "Not calibrated: hold the arm in its reset position, all links at right angles, and "
             "open it with ResetEncoders on."

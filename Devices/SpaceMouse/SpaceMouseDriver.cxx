@@ -109,7 +109,7 @@ std::string SpaceMouseDriver::Describe()
 
 void SpaceMouseDriver::Open(DriverContext& context)
 {
-  context.Report(DriverPhase::Opening, "Looking for the SpaceMouse's daemon.");
+  context.Report(DevicePhase::Opening, "Looking for the SpaceMouse's daemon.");
   this->Deflection = {};
   this->Buttons = 0;
   this->Connect();

@@ -259,7 +259,8 @@ _native = {
     and value.__module__ == module.__name__
 }
 # Abstract ones stay as they are, so that isinstance() says what it should.
+_ABSTRACT = ("vtkHapticDevice", "vtkThreadedHapticDevice", "vtkDriverHapticDevice")
 CLASSES = {
-    name: class_ if name in ("vtkHapticDevice", "vtkDriverHapticDevice") else extend(class_)
+    name: class_ if name in _ABSTRACT else extend(class_)
     for name, class_ in _native.items()
 }

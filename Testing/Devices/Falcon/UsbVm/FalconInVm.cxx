@@ -33,7 +33,7 @@ bool WaitFor(Condition condition)
   return true;
 }
 
-bool Reaches(haptics::FalconTransport& transport, haptics::FalconPhase phase)
+bool Reaches(haptics::FalconTransport& transport, haptics::DevicePhase phase)
 {
   return WaitFor([&] { return transport.GetStatus().Phase == phase; });
 }
@@ -41,7 +41,7 @@ bool Reaches(haptics::FalconTransport& transport, haptics::FalconPhase phase)
 /// The kernel takes its time to find what was plugged in.
 void Bring(haptics::FalconTransport& transport, const char* what)
 {
-  Check(Reaches(transport, haptics::FalconPhase::Ready), what, transport.GetStatus().Text);
+  Check(Reaches(transport, haptics::DevicePhase::Ready), what, transport.GetStatus().Text);
 }
 
 bool Pushes(VhciBus& bus)
@@ -84,7 +84,7 @@ int main()
     Bring(transport, "comes up again, without an upload");
     bus.With([](FalconModel& m) { Check(m.Uploads == 1, "was loaded once"); });
     bus.Unplug();
-    Check(Reaches(transport, haptics::FalconPhase::Faulted), "is missed when it is pulled out");
+    Check(Reaches(transport, haptics::DevicePhase::Faulted), "is missed when it is pulled out");
     const std::string text = transport.GetStatus().Text;
     Check(text.find("unplugged") != std::string::npos, "and the user reads so", text);
     Check(!transport.GetStatus().Link->Up, "and the servo too");
@@ -95,7 +95,7 @@ int main()
   Check(WaitFor([] { return std::ifstream("/dev/bus/usb/001/003").good(); }), "is found again");
   {
     haptics::FalconTransport transport(settings);
-    Check(Reaches(transport, haptics::FalconPhase::Faulted), "stalls");
+    Check(Reaches(transport, haptics::DevicePhase::Faulted), "stalls");
     const std::string text = transport.GetStatus().Text;
     Check(text.find("stall") != std::string::npos, "and the user reads so", text);
   }
