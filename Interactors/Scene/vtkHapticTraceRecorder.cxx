@@ -63,7 +63,8 @@ void vtkHapticTraceRecorder::Start()
 void vtkHapticTraceRecorder::Stop()
 {
   this->InvokeEvent(vtkCommand::EndEvent);
-  const std::string missing = this->Internals->Columns.Missing();
+  const std::string missing =
+    this->SurfaceArrays.empty() ? std::string() : this->Internals->Columns.Missing();
   if (this->Recording && !missing.empty() && !this->Internals->Names.empty())
   {
     vtkWarningMacro(<< "No surface that was touched has an array " << missing

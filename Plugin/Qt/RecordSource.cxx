@@ -17,6 +17,9 @@
 #include "vtkSMViewProxy.h"
 #include "vtkSmartPointer.h"
 
+#include <string>
+#include <vector>
+
 namespace haptics
 {
 namespace
@@ -54,12 +57,28 @@ vtkSMProxy* Make(vtkPolyData* record, const char* name, vtkSMProxy*& shown)
   return source;
 }
 
-void Render()
+void Render(vtkSMProxy* shown)
 {
-  if (pqView* view = pqActiveObjects::instance().activeView())
+  shown->UpdateVTKObjects();
+  pqActiveObjects::instance().activeView()->render();
+}
+
+/// Lines that are coloured by the force.
+vtkSMProxy* MakeLines(vtkPolyData* record, const char* name)
+{
+  vtkSMProxy* shown = nullptr;
+  vtkSMProxy* source = Make(record, name, shown);
+  if (shown)
   {
-    view->render();
+    vtkSMPropertyHelper(shown, "LineWidth").Set(LineWidth);
+    if (record->GetPointData()->HasArray("Force"))
+    {
+      vtkSMPVRepresentationProxy::SetScalarColoring(shown, "ForceMagnitude", vtkDataObject::POINT);
+      vtkSMPVRepresentationProxy::RescaleTransferFunctionToDataRange(shown);
+    }
+    Render(shown);
   }
+  return source;
 }
 }
 
@@ -72,8 +91,7 @@ vtkSMProxy* MakeLandmarksSource(vtkPolyData* landmarks)
   {
     vtkSMPropertyHelper(shown, "PointSize").Set(PointSize);
     vtkSMPropertyHelper(shown, "RenderPointsAsSpheres").Set(1);
-    shown->UpdateVTKObjects();
-    Render();
+    Render(shown);
   }
   return source;
 }
@@ -81,19 +99,58 @@ vtkSMProxy* MakeLandmarksSource(vtkPolyData* landmarks)
 vtkSMProxy* MakeTraceSource(vtkPolyData* trace)
 {
   SCOPED_UNDO_SET("Trace to Source");
-  vtkSMProxy* shown = nullptr;
-  vtkSMProxy* source = Make(trace, "HapticTrace", shown);
-  if (shown)
+  return MakeLines(trace, "HapticTrace");
+}
+
+vtkSMProxy* MakeCurvesSource(vtkPolyData* curves)
+{
+  SCOPED_UNDO_SET("Draw Curves");
+  return MakeLines(curves, "HapticCurves");
+}
+
+void PlotTrace(vtkSMProxy* trace)
+{
+  SCOPED_UNDO_SET("Plot Force");
+  pqView* active = pqActiveObjects::instance().activeView();
+  pqPipelineSource* selected = pqActiveObjects::instance().activeSource();
+  vtkSMSessionProxyManager* proxies = trace->GetSessionProxyManager();
+  vtkNew<vtkSMParaViewPipelineControllerWithRendering> controller;
+
+  vtkSmartPointer<vtkSMProxy> plot;
+  plot.TakeReference(proxies->NewProxy("filters", "PlotAttributes"));
+  controller->PreInitializeProxy(plot);
+  vtkSMPropertyHelper(plot, "Input").Set(trace);
+  controller->PostInitializeProxy(plot);
+  plot->UpdateVTKObjects();
+  controller->RegisterPipelineProxy(plot);
+  auto* source = vtkSMSourceProxy::SafeDownCast(plot);
+  source->UpdatePipeline();
+
+  vtkSmartPointer<vtkSMProxy> view;
+  view.TakeReference(proxies->NewProxy("views", "XYChartView"));
+  controller->InitializeProxy(view);
+  controller->RegisterViewProxy(view);
+  controller->AssignViewToLayout(vtkSMViewProxy::SafeDownCast(view));
+  vtkSMPropertyHelper(view, "ChartTitle").Set("Force on the hand");
+  vtkSMPropertyHelper(view, "BottomAxisTitle").Set("Time [s]");
+  vtkSMPropertyHelper(view, "LeftAxisTitle").Set("Force [N]");
+  view->UpdateVTKObjects();
+  vtkSMProxy* shown = controller->Show(source, 0, vtkSMViewProxy::SafeDownCast(view));
+  vtkSMPropertyHelper(shown, "UseIndexForXAxis").Set(0);
+  vtkSMPropertyHelper(shown, "XArrayName").Set("Time");
+  vtkSMPropertyHelper visible(shown, "SeriesVisibility");
+  std::vector<std::string> series;
+  for (unsigned int i = 0; i + 1 < visible.GetNumberOfElements(); i += 2)
   {
-    vtkSMPropertyHelper(shown, "LineWidth").Set(LineWidth);
-    if (trace->GetPointData()->HasArray("Force"))
-    {
-      vtkSMPVRepresentationProxy::SetScalarColoring(shown, "ForceMagnitude", vtkDataObject::POINT);
-      vtkSMPVRepresentationProxy::RescaleTransferFunctionToDataRange(shown);
-    }
-    shown->UpdateVTKObjects();
-    Render();
+    series.emplace_back(visible.GetAsString(i));
   }
-  return source;
+  for (const std::string& name : series)
+  {
+    visible.SetStatus(name.c_str(), name == "ForceMagnitude" ? 1 : 0);
+  }
+  shown->UpdateVTKObjects();
+  vtkSMViewProxy::SafeDownCast(view)->StillRender();
+  pqActiveObjects::instance().setActiveView(active);
+  pqActiveObjects::instance().setActiveSource(selected);
 }
 }

@@ -15,7 +15,14 @@ namespace haptics
 vtkSMProxy* MakeLandmarksSource(vtkPolyData* landmarks);
 /// Coloured by the array ForceMagnitude [N], where it has one.
 vtkSMProxy* MakeTraceSource(vtkPolyData* trace);
+/// As MakeTraceSource(), of vtkHapticRecordSource::MakeCurves().
+vtkSMProxy* MakeCurvesSource(vtkPolyData* curves);
 ///@}
+
+/// Opens a line chart of a source that MakeTraceSource() has made: ForceMagnitude [N] over Time
+/// [s]. Other series can be chosen in its properties. The active view stays the active one. GUI
+/// thread.
+void PlotTrace(vtkSMProxy* trace);
 }
 
 #endif

@@ -2,7 +2,10 @@
 
 #include "RecordSource.h"
 #include "pqApplicationCore.h"
+#include "pqCoreUtilities.h"
+#include "pqHapticsForceChart.h"
 #include "pqHapticsManager.h"
+#include "pqHapticsPen.h"
 #include "pqHapticsRecorder.h"
 #include "vtkHapticLandmarks.h"
 #include "vtkHapticScene.h"
@@ -11,6 +14,7 @@
 
 #include <QAction>
 #include <QIcon>
+#include <QMainWindow>
 #include <QPointer>
 
 namespace
@@ -35,6 +39,7 @@ pqHapticsActions::pqHapticsActions(QObject* parent)
 {
   this->makeRunning();
   this->makeMarking();
+  this->makeKeeping();
   this->connect(this->Manager, &pqHapticsManager::updated, this, &pqHapticsActions::followHand);
   this->connect(
     this->Manager, &pqHapticsManager::engagedChanged, this, &pqHapticsActions::followHand);
@@ -81,7 +86,7 @@ void pqHapticsActions::makeRunning()
       this->followHand();
     });
 
-  this->Press = this->add("actionHapticPress", "Press", QKeySequence(),
+  this->Press = this->add("actionHapticPress", "Press", QKeySequence("Shift+P"),
     "Let the mouse hand press, as the held space bar does, until this is chosen again");
   this->Press->setCheckable(true);
   this->connect(this->Press, &QAction::triggered, manager,
@@ -125,7 +130,26 @@ void pqHapticsActions::makeMarking()
   this->Paint = this->add("actionHapticPaint", "Paint Selection", QKeySequence("P"),
     "While it is on, the cells that are touched are added to ParaView's selection");
   this->Paint->setCheckable(true);
+  this->SelectTouched =
+    this->add("actionHapticSelectTouched", "Select Touched Cell", QKeySequence(),
+      "While it is on, the cell that is touched is ParaView's selection: spreadsheets, and sources "
+      "that are linked with this one, follow the hand");
+  this->SelectTouched->setCheckable(true);
+  for (QAction* action : { this->Paint, this->SelectTouched })
+  {
+    QAction* other = action == this->Paint ? this->SelectTouched : this->Paint;
+    this->connect(action, &QAction::triggered, other, [other] { other->setChecked(false); });
+  }
+  this->Draw = this->add("actionHapticDraw", "Draw Curves", QKeySequence("C"),
+    "While it is on, each stroke becomes a curve on the surface; then a source of them, with force "
+    "and data along each");
+  this->Draw->setCheckable(true);
+  this->connect(this->Draw, &QAction::triggered, manager->pen(), &pqHapticsPen::draw);
+}
 
+void pqHapticsActions::makeKeeping()
+{
+  pqHapticsManager* manager = this->Manager;
   pqHapticsRecorder* recorder = manager->recorder();
   this->Record = this->add("actionHapticRecord", "Record...", QKeySequence("Ctrl+Shift+R"),
     "Write every tick of what the device does to a file, from the next Engage until it is "
@@ -147,6 +171,35 @@ void pqHapticsActions::makeMarking()
         haptics::MakeTraceSource(hand->GetTrace());
       }
     });
+  this->PlotForce = this->add("actionHapticPlotForce", "Plot Trace", QKeySequence(),
+    "Make a source of the trace, and a line chart of the force over time beside the view");
+  this->connect(this->PlotForce, &QAction::triggered, manager,
+    [manager]
+    {
+      vtkHapticScene* hand = manager->hand();
+      if (vtkSMProxy* trace = hand ? haptics::MakeTraceSource(hand->GetTrace()) : nullptr)
+      {
+        haptics::PlotTrace(trace);
+      }
+    });
+  this->ForceChart = this->add("actionHapticForceChart", "Force Chart",
+    QKeySequence("Ctrl+Shift+F"), "Show the force of the last ten seconds while the hand touches");
+  this->ForceChart->setCheckable(true);
+  this->connect(this->ForceChart, &QAction::triggered, this, &pqHapticsActions::showForceChart);
+}
+
+/// Made when it is first asked for.
+void pqHapticsActions::showForceChart(bool show)
+{
+  if (!this->Chart)
+  {
+    auto* window = qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget());
+    this->Chart = new pqHapticsForceChart(window);
+    window->addDockWidget(Qt::BottomDockWidgetArea, this->Chart);
+    this->connect(this->Chart, &QDockWidget::visibilityChanged, this->ForceChart,
+      [this] { this->ForceChart->setChecked(!this->Chart->isHidden()); });
+  }
+  this->Chart->setVisible(show);
 }
 
 void pqHapticsActions::followSelection()
@@ -173,9 +226,13 @@ void pqHapticsActions::followHand()
   this->RemoveLast->setEnabled(landmarks > 0);
   this->LandmarksToSource->setEnabled(landmarks > 0);
   this->Paint->setEnabled(isEngaged);
+  this->SelectTouched->setEnabled(isEngaged);
+  this->Draw->setEnabled(isEngaged);
+  this->Draw->setChecked(this->Manager->pen()->isDrawing());
   this->Record->setChecked(this->Manager->recorder()->isArmed());
   const bool keepsTrace = scene && scene->GetRecordTrace();
   this->KeepTrace->setChecked(keepsTrace);
   this->HasTrace = this->HasTrace || (keepsTrace && isEngaged);
   this->TraceToSource->setEnabled(scene && this->HasTrace);
+  this->PlotForce->setEnabled(scene && this->HasTrace);
 }

@@ -13,8 +13,10 @@
 #include <QKeySequence>
 #include <QList>
 #include <QObject>
+#include <QPointer>
 
 class QAction;
+class pqHapticsForceChart;
 class pqHapticsManager;
 
 class pqHapticsActions : public QObject
@@ -31,6 +33,7 @@ public:
   QList<QAction*> all() const { return this->Actions; }
   QAction* touch() const { return this->Touch; }
   QAction* paint() const { return this->Paint; }
+  QAction* selectTouched() const { return this->SelectTouched; }
 
 private Q_SLOTS:
   void followHand();
@@ -43,9 +46,12 @@ private:
   QAction* add(const char* name, const QString& text, const QKeySequence& keys, const QString& tip);
   void makeRunning();
   void makeMarking();
+  void makeKeeping();
+  void showForceChart(bool show);
 
   pqHapticsManager* Manager;
   bool HasTrace = false; // something was kept
+  QPointer<pqHapticsForceChart> Chart;
   QList<QAction*> Actions;
   QAction* Touch = nullptr;
   QAction* Engage = nullptr;
@@ -55,9 +61,13 @@ private:
   QAction* RemoveLast = nullptr;
   QAction* LandmarksToSource = nullptr;
   QAction* Paint = nullptr;
+  QAction* SelectTouched = nullptr;
+  QAction* Draw = nullptr;
   QAction* Record = nullptr;
   QAction* KeepTrace = nullptr;
   QAction* TraceToSource = nullptr;
+  QAction* PlotForce = nullptr;
+  QAction* ForceChart = nullptr;
 };
 
 #endif

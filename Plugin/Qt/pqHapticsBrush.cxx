@@ -27,7 +27,9 @@ pqHapticsBrush::pqHapticsBrush(pqHapticsManager* manager)
 
 void pqHapticsBrush::paint()
 {
-  if (!pqHapticsActions::instance()->paint()->isChecked())
+  QAction* const paint = pqHapticsActions::instance()->paint();
+  QAction* const follow = pqHapticsActions::instance()->selectTouched();
+  if (!paint->isChecked() && !follow->isChecked())
   {
     this->Port = nullptr; // the next stroke selects anew
     this->Cells.clear();
@@ -42,12 +44,15 @@ void pqHapticsBrush::paint()
   }
   if (port->getDataInformation()->IsCompositeDataSet())
   {
-    pqHapticsActions::instance()->paint()->setChecked(false);
+    paint->setChecked(false);
+    follow->setChecked(false);
     this->Manager->complain("Paint Selection",
-      "Cells of data with several blocks cannot be painted. Apply Merge Blocks, and touch that.");
+      "Cells of data with several blocks cannot be selected by touch. Apply Merge Blocks, and "
+      "touch "
+      "that.");
     return;
   }
-  if (port != this->Port)
+  if (port != this->Port || (follow->isChecked() && this->Cells.count(cell) == 0))
   {
     this->Port = port;
     this->Cells.clear();

@@ -1,8 +1,9 @@
 /**
  * @class   pqHapticsBrush
- * @brief   Adds the cells that the hand touches to ParaView's selection.
+ * @brief   Makes the cells that the hand touches ParaView's selection.
  *
- * While the action Paint Selection is on. The selection is one of cells of the touched source, by
+ * While the action Paint Selection is on all of a stroke, while Select Touched Cell is on the last
+ * one. The selection is one of cells of the touched source, by
  * their ids, as any selection in the view: it can be extracted, frozen, looked at in a SpreadSheet.
  * Data of several blocks or several server ranks have no such ids here; a message says so.
  * GUI thread.

@@ -5,6 +5,7 @@
 #include "pqCoreUtilities.h"
 #include "pqDataRepresentation.h"
 #include "pqHapticsBrush.h"
+#include "pqHapticsPen.h"
 #include "pqHapticsRecorder.h"
 #include "pqOutputPort.h"
 #include "pqPipelineSource.h"
@@ -74,14 +75,6 @@ QList<pqOutputPort*> selectedPorts()
   }
   return ports;
 }
-
-/// What an engaged hand does is no edit of the user's: there is nothing to undo.
-void set(vtkSMProxy* scene, const char* property, int value)
-{
-  SCOPED_UNDO_EXCLUDE();
-  vtkSMPropertyHelper(scene, property).Set(value);
-  scene->UpdateVTKObjects();
-}
 }
 
 pqHapticsManager* pqHapticsManager::instance()
@@ -97,6 +90,7 @@ pqHapticsManager* pqHapticsManager::instance()
 pqHapticsManager::pqHapticsManager(QObject* parent)
   : Superclass(parent)
   , Recorder(new pqHapticsRecorder(this))
+  , Pen(new pqHapticsPen(this))
 {
   this->setObjectName("HapticsManager");
   new pqHapticsBrush(this);
@@ -358,11 +352,11 @@ void pqHapticsManager::engage(const QString& title, bool anew)
   this->View->forceRender(); // surfaces come to the client with a render
   if (anew)
   {
-    ::set(scene, "Engaged", 0);
+    this->setForNow("Engaged", 0);
   }
   if (!anew || this->clientScene()->Fit())
   {
-    ::set(scene, "Engaged", 1);
+    this->setForNow("Engaged", 1);
     this->focusView();
   }
   this->Asked = title;
@@ -436,7 +430,7 @@ void pqHapticsManager::setEngaged(bool engaged)
   else if (this->Scene)
   {
     this->Asked.clear();
-    ::set(this->Scene, "Engaged", 0);
+    this->setForNow("Engaged", 0);
     this->poll();
   }
 }
@@ -499,6 +493,13 @@ void pqHapticsManager::set(const char* what, const char* property, double value)
     scene->UpdateVTKObjects();
     this->poll();
   }
+}
+
+void pqHapticsManager::setForNow(const char* property, int value)
+{
+  SCOPED_UNDO_EXCLUDE();
+  vtkSMPropertyHelper(this->Scene, property).Set(value);
+  this->Scene->UpdateVTKObjects();
 }
 
 void pqHapticsManager::fit()
@@ -565,7 +566,7 @@ void pqHapticsManager::noticeState()
     this->Timer.stop();
     if (this->Scene && vtkSMPropertyHelper(this->Scene, "Engaged").GetAsInt() != 0)
     {
-      ::set(this->Scene, "Engaged", 0);
+      this->setForNow("Engaged", 0);
     }
   }
   else if (!this->Timer.isActive())

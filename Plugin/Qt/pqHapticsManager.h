@@ -29,6 +29,7 @@
 #include <QString>
 #include <QTimer>
 
+class pqHapticsPen;
 class pqHapticsRecorder;
 class pqOutputPort;
 class pqView;
@@ -61,6 +62,8 @@ public:
   vtkMouseHapticDevice* mouse() const;
   /** Never null. */
   pqHapticsRecorder* recorder() const { return this->Recorder; }
+  /** Never null. */
+  pqHapticsPen* pen() const { return this->Pen; }
   /** What is touched just now; null in free space. */
   pqOutputPort* touchedPort() const;
 
@@ -93,6 +96,8 @@ public Q_SLOTS:
   void fit();
   /** Sets a property of the scene, which is made where there is none; undo knows it as `what`. */
   void set(const char* what, const char* property, double value);
+  /** The same for what goes on while the hand is engaged: there is nothing to undo. */
+  void setForNow(const char* property, int value);
   /** Runs a command of the scene, then shows what came of it. */
   void command(const char* property);
   /** Looks at the scene now. */
@@ -130,6 +135,7 @@ private:
   vtkWeakPointer<vtkSMProxy> Scene;
   QPointer<pqView> View;
   pqHapticsRecorder* Recorder;
+  pqHapticsPen* Pen;
   QTimer Timer{ this };
   QTimer Resting{ this }; // until the picture is drawn in full
   QElapsedTimer Drawn;    // since the last picture

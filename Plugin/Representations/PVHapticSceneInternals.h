@@ -4,11 +4,16 @@
 #include "HapticDeviceChoice.h"
 #include "vtkActor.h"
 #include "vtkCompositeRepresentation.h"
+#include "vtkDataArray.h"
+#include "vtkDataObject.h"
+#include "vtkDataSet.h"
+#include "vtkFieldData.h"
 #include "vtkGodObjectActor.h"
 #include "vtkGodObjectFilter.h"
 #include "vtkHapticScene.h"
 #include "vtkHapticSurfaceRepresentation.h"
 #include "vtkHapticView.h"
+#include "vtkMapper.h"
 #include "vtkNew.h"
 #include "vtkPVHapticScene.h"
 #include "vtkPVRenderView.h"
@@ -17,6 +22,7 @@
 #include "vtkStringArray.h"
 #include "vtkWeakPointer.h"
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -72,6 +78,29 @@ public:
     return haptic                                        ? haptic
       : surface.Beside && surface.Beside->GetTouchable() ? +surface.Beside
                                                          : nullptr;
+  }
+
+  /// The point and cell arrays of the surfaces but for ParaView's own bookkeeping.
+  std::set<std::string> NamesOfArrays() const
+  {
+    std::set<std::string> names;
+    for (const Surface& surface : this->Surfaces)
+    {
+      vtkDataSet* data = surface.Actor ? surface.Actor->GetMapper()->GetInput() : nullptr;
+      for (const int kind : { vtkDataObject::POINT, vtkDataObject::CELL })
+      {
+        vtkFieldData* arrays = data ? data->GetAttributesAsFieldData(kind) : nullptr;
+        for (int i = 0; arrays && i < arrays->GetNumberOfArrays(); ++i)
+        {
+          const char* name = arrays->GetArray(i) ? arrays->GetArray(i)->GetName() : nullptr;
+          if (name && std::string(name).rfind("vtk", 0) != 0)
+          {
+            names.insert(name);
+          }
+        }
+      }
+    }
+    return names;
   }
 
   void Show(vtkRenderer* renderer)

@@ -41,6 +41,14 @@ public:
    */
   static std::string MakeContents(vtkPolyData* record);
 
+  /**
+   * Of a trace (vtkHapticScene::GetTrace()) the parts in contact from the point `first` on, as
+   * curves on the surface: one polyline for each contact, with the trace's point arrays and
+   * arc_length [world unit] from its start. Ticks that moved by less than 1/2000 of the diagonal of
+   * all of them are left out; a contact that did not move gives no curve.
+   */
+  static void MakeCurves(vtkPolyData* trace, vtkIdType first, vtkPolyData* curves);
+
 protected:
   vtkHapticRecordSource();
   ~vtkHapticRecordSource() override;

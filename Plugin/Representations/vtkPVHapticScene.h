@@ -175,7 +175,10 @@ public:
   /** The file that the next run records to, see vtkHapticServo; empty (the default) for none. */
   void SetRecordingFileName(const char* name);
   ///@{
-  /** Whether a trace is kept of every tick. Default off; turning it on forgets the last one. */
+  /**
+   * Whether a trace is kept of every tick, with the arrays that the surfaces have when it is turned
+   * on. Default off; turning it on forgets the last one.
+   */
   void SetRecordTrace(bool record);
   bool GetRecordTrace();
   ///@}

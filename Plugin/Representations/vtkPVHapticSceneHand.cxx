@@ -139,10 +139,16 @@ void vtkPVHapticScene::SetRecordingFileName(const char* name)
 
 void vtkPVHapticScene::SetRecordTrace(bool record)
 {
-  if (record != this->GetRecordTrace())
+  vtkHapticTraceRecorder* recorder = this->Internal->Scene->GetTraceRecorder();
+  if (record && !recorder->GetRecording())
   {
-    record ? this->Internal->Scene->StartRecording() : this->Internal->Scene->StopRecording();
+    for (const std::string& name : this->Internal->NamesOfArrays())
+    {
+      recorder->AddSurfaceArray(name.c_str());
+    }
   }
+  recorder->SetRecording(record);
+  recorder->ClearSurfaceArrays(); // nobody asked for them by name: one not touched is no fault
 }
 
 bool vtkPVHapticScene::GetRecordTrace()

@@ -34,8 +34,11 @@ def report(*_):
         hand = servermanager._getPyProxy(proxy)
         proxy.UpdatePropertyInformation()
         cells = contour.SMProxy.GetSelectionInput(0)
+        curves = [source for (name, _), source in GetSources().items() if name.startswith("HapticCurves")]
+        points = curves[0].GetDataInformation().GetNumberOfPoints() if curves else 0
         print(f"STATE {hand.State} | {hand.ForceMagnitude:.3f} | {hand.NumberOfLandmarks}"
-              f" | {cells is not None} | {list(hand.HapticInterfacePoint)}", flush=True)
+              f" | {cells is not None} | {list(hand.HapticInterfacePoint)}"
+              f" | {points}", flush=True)
 
 
 view.SMProxy.AddObserver("EndEvent", report)
@@ -50,11 +53,11 @@ class Hand:
         self.program = program
 
     def state(self):
-        found = re.findall(r"^STATE (.*) \| (.*) \| (.*) \| (.*) \| (.*)$", self.program.output(), re.M)
+        found = re.findall(r"^STATE (.*) \| (.*) \| (.*) \| (.*) \| (.*) \| (.*)$", self.program.output(), re.M)
         if not found:
-            return "", 0.0, 0, False, ""
-        name, force, landmarks, painted, place = found[-1]
-        return name, float(force), int(landmarks), painted == "True", place
+            return "", 0.0, 0, False, "", 0
+        name, force, landmarks, painted, place, points = found[-1]
+        return name, float(force), int(landmarks), painted == "True", place, int(points)
 
     def wait(self, condition, what):
         """Moves the mouse by a pixel now and then, as a hand that waits does."""
@@ -83,18 +86,31 @@ def touch_a_contour(desktop, program):
     )
     program.key("p")
     program.drag(0.48, 0.71)
-    hand.wait(lambda state, force, landmarks, painted, _: painted, "a painted cell")
+    hand.wait(lambda state, force, landmarks, painted, *_: painted, "a painted cell")
     program.key("p")
+
+    # A stroke becomes a curve, a source of its own.
+    program.key("c")
+    program.drag(0.46, 0.70)
+    program.key("c")
+    hand.wait(lambda *state: state[-1] > 1, "a curve")
     desktop.xdo("keyup", "space")
     hand.wait(lambda state, force, *_: force == 0.0, "letting go")
 
     # The camera turns, the hand stays.
-    before = hand.state()[-1]
+    before = hand.state()[4]
     desktop.xdo("mousedown", "1")
     program.drag(0.52, 0.72)
-    during = hand.state()[-1]
+    during = hand.state()[4]
     desktop.xdo("mouseup", "1")
     assert during == before, (before, during)
+
+    # Pressed by a key alone, without a held one.
+    program.drag(0.46, 0.70)
+    program.key("shift+p")
+    hand.wait(lambda state, force, *_: force > 1.0, "Press to press")
+    program.key("shift+p")
+    hand.wait(lambda state, force, *_: force == 0.0, "Press to let go")
 
     program.key("ctrl+shift+t")
     hand.wait(lambda state, *_: state == "Released", "Touch to release")

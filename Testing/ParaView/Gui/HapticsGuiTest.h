@@ -33,6 +33,10 @@ private Q_SLOTS:
   void panelAndProxyShowTheSameSettings();
   void landmarksBecomeASource();
   void aRecordingIsPlayedBack();
+  void theForceChartFollowsTheHand();
+  void strokesBecomeCurvesWithData();
+  void aTraceIsPlottedByItsForce();
+  void theTouchedCellIsSelected();
   void aDraggedContourIsFollowed();
   void aLargeSurfaceIsBuiltBeside();
   void buildingCanBeCancelled();

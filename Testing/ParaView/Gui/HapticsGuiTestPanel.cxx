@@ -25,7 +25,9 @@
 #include "vtkSMViewProxy.h"
 
 #include <QAbstractButton>
+#include <QAction>
 #include <QComboBox>
+#include <QDockWidget>
 #include <QDoubleSpinBox>
 #include <QFileInfo>
 #include <QGuiApplication>
@@ -34,6 +36,10 @@
 #include <QScreen>
 #include <QTest>
 #include <QTimer>
+#include <QVTKOpenGLNativeWidget.h>
+
+#include <algorithm>
+#include <string>
 
 using namespace GuiTest;
 
@@ -51,6 +57,11 @@ QTimer* timer()
 double stiffness()
 {
   return vtkSMPropertyHelper(scene(), "Stiffness").GetAsDouble();
+}
+
+QList<pqPipelineSource*> sources()
+{
+  return pqApplicationCore::instance()->getServerManagerModel()->findItems<pqPipelineSource*>();
 }
 
 pqPipelineSource* makeLargeSphere()
@@ -186,6 +197,120 @@ void HapticsGuiTest::aRecordingIsPlayedBack()
   pressTouch();
   QCOMPARE(takeComplaint(), QString());
   QVERIFY(waitUntil(touching));
+}
+
+void HapticsGuiTest::theForceChartFollowsTheHand()
+{
+  makeWaveletContour();
+  auto* show = findAction("actionHapticForceChart");
+  show->trigger();
+  auto* dock = find<QDockWidget>("HapticsForceChart");
+  QVERIFY(dock && dock->isVisible());
+  QVERIFY(show->isChecked());
+  auto* drawn = dock->findChild<QVTKOpenGLNativeWidget*>();
+  const auto hasCurve = [drawn]
+  {
+    const QImage picture = drawn->grabFramebuffer();
+    int red = 0;
+    for (int x = 0; x < picture.width(); ++x)
+    {
+      for (int y = 0; y < picture.height(); ++y)
+      {
+        const QColor color = picture.pixelColor(x, y);
+        red += color.red() > 150 && color.blue() < 100 ? 1 : 0;
+      }
+    }
+    return red > 20; // above the axis: see the force
+  };
+  QVERIFY2(!hasCurve(), "nothing was felt yet");
+  pressTouch();
+  QVERIFY(press());
+  QVERIFY(waitUntil(hasCurve));
+  dock->close();
+  QVERIFY(waitUntil([show] { return !show->isChecked(); }));
+}
+
+void HapticsGuiTest::strokesBecomeCurvesWithData()
+{
+  makeWaveletContour();
+  pressTouch();
+  QVERIFY(press());
+  const int before = sources().size();
+  findAction("actionHapticDraw")->trigger();
+  for (double x = 0.5; x < 0.56; x += 0.005)
+  {
+    moveMouse(x, 0.4);
+    QTest::qWait(20);
+  }
+  findAction("actionHapticDraw")->trigger();
+  QCOMPARE(sources().size(), before + 1);
+  pqPipelineSource* curves = sources().last();
+  QVERIFY2(curves->getSMName().startsWith("HapticCurves"), qPrintable(curves->getSMName()));
+  vtkPVDataInformation* data = curves->getSourceProxy()->GetDataInformation(0);
+  QVERIFY(data->GetNumberOfCells() >= 1);
+  QVERIFY(data->GetNumberOfPoints() > 10);
+  for (const char* name : { "ForceMagnitude", "Time", "arc_length", "RTData" })
+  {
+    QVERIFY2(data->GetArrayInformation(name, vtkDataObject::POINT), name);
+  }
+  // On the contour at 157 its scalar is that value, to within the deviation of its triangles.
+  double range[2];
+  data->GetArrayInformation("RTData", vtkDataObject::POINT)->GetComponentRange(0, range);
+  QVERIFY(range[0] > 156.9 && range[1] < 157.1);
+  QVERIFY(!clientScene()->GetRecordTrace());
+}
+
+void HapticsGuiTest::aTraceIsPlottedByItsForce()
+{
+  makeWaveletContour();
+  pqView* active = pqActiveObjects::instance().activeView();
+  pressTouch();
+  findAction("actionHapticKeepTrace")->trigger();
+  QVERIFY(press());
+  findAction("actionHapticKeepTrace")->trigger();
+  QVERIFY(waitUntil([] { return findAction("actionHapticPlotForce")->isEnabled(); }));
+  findAction("actionHapticPlotForce")->trigger();
+  const QList<pqView*> views =
+    pqApplicationCore::instance()->getServerManagerModel()->findItems<pqView*>();
+  const auto chart = std::find_if(
+    views.begin(), views.end(), [](pqView* view) { return view->getViewType() == "XYChartView"; });
+  QVERIFY(chart != views.end());
+  QCOMPARE((*chart)->getNumberOfVisibleDataRepresentations(), 1);
+  vtkSMProxy* shown = (*chart)->getRepresentation(0)->getProxy();
+  QCOMPARE(vtkSMPropertyHelper(shown, "XArrayName").GetAsString(), "Time");
+  vtkSMPropertyHelper series(shown, "SeriesVisibility");
+  for (unsigned int i = 0; i + 1 < series.GetNumberOfElements(); i += 2)
+  {
+    const std::string name = series.GetAsString(i);
+    QCOMPARE(series.GetAsString(i + 1), name == "ForceMagnitude" ? "1" : "0");
+  }
+  QCOMPARE(pqActiveObjects::instance().activeView(), active);
+  QVERIFY(engaged());
+}
+
+void HapticsGuiTest::theTouchedCellIsSelected()
+{
+  pqPipelineSource* contour = makeWaveletContour();
+  pressTouch();
+  QVERIFY(press());
+  findAction("actionHapticSelectTouched")->trigger();
+  const auto selected = [contour]() -> vtkTypeInt64
+  {
+    vtkSMSourceProxy* selection = contour->getSourceProxy()->GetSelectionInput(0);
+    vtkSMProxy* cells = selection ? vtkSMPropertyHelper(selection, "Input").GetAsProxy(0) : nullptr;
+    if (!cells)
+    {
+      return -1;
+    }
+    vtkSMPropertyHelper ids(cells, "IDs", true);
+    return ids.GetNumberOfElements() == 2 ? ids.GetAsIdType(1) : -1;
+  };
+  QVERIFY(waitUntil([selected] { return selected() >= 0; }));
+  const vtkTypeInt64 first = selected();
+  moveMouse(0.55, 0.4);
+  QVERIFY(waitUntil([selected, first] { return selected() >= 0 && selected() != first; }));
+  QVERIFY(waitUntil([selected] { return selected() == clientScene()->GetTouchedCell(); }));
+  findAction("actionHapticSelectTouched")->trigger();
 }
 
 void HapticsGuiTest::aDraggedContourIsFollowed()
