@@ -87,6 +87,13 @@ struct vtkHapticLandmarks::Landmark
   haptics::Vec3 Normal{};        // world, unit, on the side that was touched
   /// A snapshot with other cells, which is not looked at twice.
   std::shared_ptr<const haptics::TriangleSurface> Refused;
+  /// The way along the surface from the landmark before, as it was found last.
+  struct
+  {
+    const vtkHapticProbe* From = nullptr;
+    std::shared_ptr<const haptics::TriangleSurface> Surface;
+    double Length = 0.0;
+  } Way{};
 
   /// The triangle's normal there, along the world's axes; of any length.
   haptics::Vec3 TriangleNormal() const
@@ -168,9 +175,9 @@ int vtkHapticLandmarks::Drop(vtkHapticProbe* probe, const char* label)
   ++this->Dropped;
   const double* const position = probe->GetPosition();
   const double* const normal = probe->GetNormal();
-  this->Landmarks.push_back(
-    { probe, label ? label : std::to_string(this->Dropped), probe->GetContact(),
-      { position[0], position[1], position[2] }, { normal[0], normal[1], normal[2] }, nullptr });
+  this->Landmarks.push_back({ probe, label ? label : std::to_string(this->Dropped),
+    probe->GetContact(), { position[0], position[1], position[2] },
+    { normal[0], normal[1], normal[2] }, nullptr, {} });
   this->Modified();
   return this->GetNumberOfLandmarks() - 1;
 }
@@ -279,9 +286,60 @@ double vtkHapticLandmarks::GetStraightDistance(int first, int second)
     this->Landmarks[static_cast<std::size_t>(second)].Position.data()));
 }
 
-double vtkHapticLandmarks::DistanceToPrevious(int number)
+double vtkHapticLandmarks::StraightToPrevious(int number)
 {
   return number > 0 ? this->GetStraightDistance(number - 1, number) : vtkMath::Nan();
+}
+
+/// Found anew only where it may have changed: a way costs about as much as building the surface.
+double vtkHapticLandmarks::AlongSurfaceToPrevious(int number)
+{
+  if (number < 1 || !this->AreOnOneSurface(number - 1, number))
+  {
+    return vtkMath::Nan();
+  }
+  Landmark& landmark = this->Landmarks[static_cast<std::size_t>(number)];
+  const vtkHapticProbe* const from = this->Landmarks[static_cast<std::size_t>(number) - 1].Probe;
+  if (landmark.Way.From != from || landmark.Way.Surface != landmark.Where.Touched)
+  {
+    landmark.Way = { from, landmark.Where.Touched, this->FindWay(number - 1, number, nullptr) };
+  }
+  return landmark.Way.Length;
+}
+
+double vtkHapticLandmarks::GetDistanceToPrevious(int number)
+{
+  if (!this->Has(number) || this->Distance == NO_DISTANCE)
+  {
+    return vtkMath::Nan();
+  }
+  return this->Distance == STRAIGHT ? this->StraightToPrevious(number)
+                                    : this->AlongSurfaceToPrevious(number);
+}
+
+std::string vtkHapticLandmarks::GetText(int number)
+{
+  if (!this->Has(number))
+  {
+    return {};
+  }
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(5);
+  text << this->Landmarks[static_cast<std::size_t>(number)].Label;
+  const double distance = this->GetDistanceToPrevious(number);
+  if (std::isfinite(distance))
+  {
+    const std::string unit = haptics::LengthUnitName(this->UnitLength);
+    text << ": " << distance << (unit.empty() ? "" : " ") << unit;
+  }
+  return text.str();
+}
+
+bool vtkHapticLandmarks::AreOnOneSurface(int first, int second) const
+{
+  return this->Landmarks[static_cast<std::size_t>(first)].Where.Touched ==
+    this->Landmarks[static_cast<std::size_t>(second)].Where.Touched;
 }
 
 double vtkHapticLandmarks::GetGeodesicDistance(int first, int second, vtkPolyData* path)
@@ -290,6 +348,18 @@ double vtkHapticLandmarks::GetGeodesicDistance(int first, int second, vtkPolyDat
   {
     return vtkMath::Nan();
   }
+  if (!this->AreOnOneSurface(first, second))
+  {
+    vtkErrorMacro("Landmarks " << first << " and " << second
+                               << " lie on two surfaces, or on one whose cells changed in "
+                                  "between; there is no way along it. Drop them anew.");
+    return vtkMath::Nan();
+  }
+  return this->FindWay(first, second, path);
+}
+
+double vtkHapticLandmarks::FindWay(int first, int second, vtkPolyData* path) const
+{
   const auto end = [this](int number)
   {
     const vtkHapticProbe::Contact& where = this->Landmarks[static_cast<std::size_t>(number)].Where;
@@ -298,15 +368,9 @@ double vtkHapticLandmarks::GetGeodesicDistance(int first, int second, vtkPolyDat
     point.Position = where.Position;
     return point;
   };
-  const auto& surface = this->Landmarks[static_cast<std::size_t>(second)].Where.Touched;
-  if (this->Landmarks[static_cast<std::size_t>(first)].Where.Touched != surface)
-  {
-    vtkErrorMacro("Landmarks " << first << " and " << second
-                               << " lie on two surfaces, or on one whose cells changed in "
-                                  "between; there is no way along it. Drop them anew.");
-    return vtkMath::Nan();
-  }
-  const haptics::GeodesicPath found = haptics::FindGeodesicPath(*surface, end(first), end(second));
+  const vtkHapticProbe::Contact& where = this->Landmarks[static_cast<std::size_t>(second)].Where;
+  const haptics::GeodesicPath found =
+    haptics::FindGeodesicPath(*where.Touched, end(first), end(second));
   if (path)
   {
     path->Initialize();
@@ -314,10 +378,9 @@ double vtkHapticLandmarks::GetGeodesicDistance(int first, int second, vtkPolyDat
     points->SetDataTypeToDouble();
     vtkNew<vtkCellArray> lines;
     lines->InsertNextCell(static_cast<int>(found.Points.size()));
-    const haptics::RigidPose& pose = this->Landmarks[static_cast<std::size_t>(second)].Where.Pose;
     for (const haptics::Vec3& point : found.Points)
     {
-      lines->InsertCellPoint(points->InsertNextPoint(pose.PointToWorld(point).data()));
+      lines->InsertCellPoint(points->InsertNextPoint(where.Pose.PointToWorld(point).data()));
     }
     path->SetPoints(points);
     if (!found.Points.empty())
@@ -340,6 +403,7 @@ vtkPolyData* vtkHapticLandmarks::GetOutput()
   points->SetDataTypeToDouble();
   vtkNew<vtkCellArray> verts;
   auto* labels = AddArray<vtkStringArray>(this->Output, "Label", 1);
+  auto* texts = AddArray<vtkStringArray>(this->Output, "Text", 1);
   auto* surfaces = AddArray<vtkIntArray>(this->Output, "Surface", 1);
   auto* cells = AddArray<vtkIdTypeArray>(this->Output, "OriginalCellId", 1);
   auto* ids = AddArray<vtkIdTypeArray>(this->Output, "PointIds", 3);
@@ -349,9 +413,13 @@ vtkPolyData* vtkHapticLandmarks::GetOutput()
   auto* distances = AddArray<vtkDoubleArray>(this->Output, "DistanceToPrevious", 1);
   forces->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), "N");
   const std::string unit = haptics::LengthUnitName(this->UnitLength);
-  for (vtkDataArray* const lengths : { points->GetData(), static_cast<vtkDataArray*>(distances) })
+  vtkDoubleArray* const ways = this->Distance == ALONG_SURFACE
+    ? AddArray<vtkDoubleArray>(this->Output, "DistanceAlongSurface", 1)
+    : nullptr;
+  for (vtkDataArray* const lengths :
+    { points->GetData(), static_cast<vtkDataArray*>(distances), static_cast<vtkDataArray*>(ways) })
   {
-    if (!unit.empty())
+    if (lengths && !unit.empty())
     {
       lengths->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), unit.c_str());
     }
@@ -360,9 +428,14 @@ vtkPolyData* vtkHapticLandmarks::GetOutput()
   {
     vtkHapticProbe* probe = landmark.Probe;
     const vtkIdType id = points->InsertNextPoint(landmark.Position.data());
-    distances->InsertNextValue(this->DistanceToPrevious(static_cast<int>(id)));
+    distances->InsertNextValue(this->StraightToPrevious(static_cast<int>(id)));
+    if (ways)
+    {
+      ways->InsertNextValue(this->AlongSurfaceToPrevious(static_cast<int>(id)));
+    }
     verts->InsertNextCell(1, &id);
     labels->InsertNextValue(landmark.Label);
+    texts->InsertNextValue(this->GetText(static_cast<int>(id)));
     surfaces->InsertNextValue(probe->GetSurface());
     cells->InsertNextValue(probe->GetCell());
     const vtkIdType corners[3] = { probe->GetPointId(0), probe->GetPointId(1),
@@ -420,7 +493,7 @@ bool vtkHapticLandmarks::WriteCSV(const char* file)
       stream << "," << probe->GetWeight(i);
     }
     const auto number = static_cast<int>(&landmark - this->Landmarks.data());
-    stream << "," << this->DistanceToPrevious(number);
+    stream << "," << this->StraightToPrevious(number);
     for (const std::string& column : columns)
     {
       const std::string value = ValueOf(probe->GetPointValues(), column);
@@ -441,6 +514,8 @@ bool vtkHapticLandmarks::WriteCSV(const char* file)
 void vtkHapticLandmarks::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  static const char* const distances[] = { "none", "straight", "along the surface" };
+  os << indent << "Distance: " << distances[this->Distance] << "\n";
   os << indent << "Landmarks: " << this->Landmarks.size() << "\n";
   for (const Landmark& landmark : this->Landmarks)
   {

@@ -71,9 +71,37 @@ public:
    */
   double GetGeodesicDistance(int first, int second, vtkPolyData* path = nullptr);
 
+  enum DistanceType
+  {
+    NO_DISTANCE,
+    STRAIGHT,
+    ALONG_SURFACE
+  };
+  ///@{
   /**
-   * The landmarks as vertices with the point arrays Label, Surface, OriginalCellId, PointIds (3),
-   * Weights (3), Normal (3), Force (3), and DistanceToPrevious, as the crow flies [world unit], NaN
+   * Which distance to the landmark before GetText() and a view give, a DistanceType: none, that of
+   * GetStraightDistance() (the default), or that of GetGeodesicDistance(). The last is computed
+   * once for each pair, and again for each deformation of the surface that both are on.
+   */
+  vtkSetClampMacro(Distance, int, NO_DISTANCE, ALONG_SURFACE);
+  vtkGetMacro(Distance, int);
+  ///@}
+  /**
+   * The distance to the landmark before [world unit], of the kind that is set; NaN of the first
+   * one, without a kind, without a way along one surface, and, with an error, without such a
+   * landmark.
+   */
+  double GetDistanceToPrevious(int number);
+  /**
+   * What a view writes beside a landmark: its label and the distance to the one before, in five
+   * digits with its unit, as in "2: 0.04 m". An error where there is no such number.
+   */
+  std::string GetText(int number);
+
+  /**
+   * The landmarks as vertices with the point arrays Label, Text (see GetText()), Surface,
+   * OriginalCellId, PointIds (3), Weights (3), Normal (3), Force (3), DistanceToPrevious, as the
+   * crow flies, and, while Distance is ALONG_SURFACE, DistanceAlongSurface [world unit], both NaN
    * of the first. Made anew after each change; never null.
    */
   vtkPolyData* GetOutput();
@@ -109,9 +137,13 @@ private:
 
   struct Landmark;
   bool Has(int number);
-  double DistanceToPrevious(int number);
+  double StraightToPrevious(int number);
+  double AlongSurfaceToPrevious(int number);
+  bool AreOnOneSurface(int first, int second) const;
+  double FindWay(int first, int second, vtkPolyData* path) const;
 
   std::vector<Landmark> Landmarks;
+  int Distance = STRAIGHT;
   double UnitLength = 0.0;
   int Dropped = 0; // for labels
   vtkNew<vtkPolyData> Output;

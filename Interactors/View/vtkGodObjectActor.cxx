@@ -3,6 +3,7 @@
 #include "haptics/Filters/NumberSetting.h"
 #include "haptics/View/ForceColor.h"
 #include "vtkActor.h"
+#include "vtkBillboardTextActor3D.h"
 #include "vtkCamera.h"
 #include "vtkConeSource.h"
 #include "vtkCylinderSource.h"
@@ -311,18 +312,20 @@ void vtkGodObjectActor::ArrangeContact(vtkViewport* viewport, double radius)
   }
 }
 
-std::vector<vtkActor*> vtkGodObjectActor::Parts() const
+std::vector<vtkProp3D*> vtkGodObjectActor::Parts() const
 {
-  return { this->GodObjectPart, this->HapticInterfacePointPart, this->SpringPart,
-    this->ForceShaftPart, this->ForceTipPart, this->ContactPart, this->TrailPart,
+  std::vector<vtkProp3D*> parts{ this->GodObjectPart, this->HapticInterfacePointPart,
+    this->SpringPart, this->ForceShaftPart, this->ForceTipPart, this->ContactPart, this->TrailPart,
     this->TrianglesPart, this->LandmarksPart };
+  parts.insert(parts.end(), this->LandmarkTexts.begin(), this->LandmarkTexts.end());
+  return parts;
 }
 
 int vtkGodObjectActor::RenderOpaqueGeometry(vtkViewport* viewport)
 {
   this->Arrange(viewport);
   int rendered = 0;
-  for (vtkActor* part : this->Parts())
+  for (vtkProp3D* part : this->Parts())
   {
     if (part->GetVisibility())
     {
@@ -344,7 +347,7 @@ int vtkGodObjectActor::RenderOverlay(vtkViewport* viewport)
 int vtkGodObjectActor::RenderTranslucentPolygonalGeometry(vtkViewport* viewport)
 {
   int rendered = 0;
-  for (vtkActor* part : this->Parts())
+  for (vtkProp3D* part : this->Parts())
   {
     if (part->GetVisibility())
     {
@@ -356,14 +359,14 @@ int vtkGodObjectActor::RenderTranslucentPolygonalGeometry(vtkViewport* viewport)
 
 vtkTypeBool vtkGodObjectActor::HasTranslucentPolygonalGeometry()
 {
-  const std::vector<vtkActor*> parts = this->Parts();
+  const std::vector<vtkProp3D*> parts = this->Parts();
   return std::any_of(parts.begin(), parts.end(),
-    [](vtkActor* part) { return part->HasTranslucentPolygonalGeometry() != 0; });
+    [](vtkProp3D* part) { return part->HasTranslucentPolygonalGeometry() != 0; });
 }
 
 void vtkGodObjectActor::ReleaseGraphicsResources(vtkWindow* window)
 {
-  for (vtkActor* part : this->Parts())
+  for (vtkProp3D* part : this->Parts())
   {
     part->ReleaseGraphicsResources(window);
   }
@@ -376,11 +379,18 @@ void vtkGodObjectActor::ReleaseGraphicsResources(vtkWindow* window)
 
 double* vtkGodObjectActor::GetBounds()
 {
-  for (int i = 0; i < 3; ++i)
+  vtkBoundingBox bounds;
+  bounds.AddPoint(this->HapticInterfacePoint);
+  bounds.AddPoint(this->GodObject);
+  if (this->Landmarks->GetNumberOfPoints() > 0)
   {
-    this->Bounds[2 * i] = std::min(this->HapticInterfacePoint[i], this->GodObject[i]);
-    this->Bounds[2 * i + 1] = std::max(this->HapticInterfacePoint[i], this->GodObject[i]);
+    bounds.AddBounds(this->Landmarks->GetBounds());
   }
+  if (this->ShowTrail)
+  {
+    bounds.AddBox(this->TrailBounds);
+  }
+  bounds.GetBounds(this->Bounds);
   return this->Bounds;
 }
 
@@ -446,6 +456,7 @@ void vtkGodObjectActor::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ShowTrail: " << (this->ShowTrail ? "On" : "Off") << "\n";
   os << indent << "ShowLegend: " << (this->ShowLegend ? "On" : "Off") << "\n";
   os << indent << "ShowActiveTriangles: " << (this->ShowActiveTriangles ? "On" : "Off") << "\n";
+  os << indent << "ShowLandmarkTexts: " << (this->ShowLandmarkTexts ? "On" : "Off") << "\n";
   os << indent << "SeeThrough: " << (this->SeeThrough ? "On" : "Off") << "\n";
   os << indent << "ColorForceByMagnitude: " << (this->ColorForceByMagnitude ? "On" : "Off") << "\n";
   os << indent << "MaximumTrailPoints: " << this->MaximumTrailPoints << "\n";

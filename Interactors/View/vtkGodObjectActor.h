@@ -35,6 +35,7 @@
 #ifndef Haptics_vtkGodObjectActor_h
 #define Haptics_vtkGodObjectActor_h
 
+#include "vtkBoundingBox.h"
 #include "vtkHapticsViewModule.h"
 #include "vtkNew.h"
 #include "vtkProp3D.h"
@@ -44,6 +45,7 @@
 #include <vector>
 
 class vtkActor;
+class vtkBillboardTextActor3D;
 class vtkPolyData;
 class vtkRenderer;
 class vtkScalarBarActor;
@@ -158,8 +160,18 @@ public:
   vtkGetMacro(ShowActiveTriangles, bool);
   vtkBooleanMacro(ShowActiveTriangles, bool);
   ///@}
-  /** Points to mark by small balls, for example vtkHapticLandmarks::GetOutput(); null for none. */
+  ///@{
+  /**
+   * Points to mark by small balls, for example vtkHapticLandmarks::GetOutput(); null for none. The
+   * strings of their point array Text, where they have one, are written beside them while
+   * ShowLandmarkTexts is on (the default; needs VTK::RenderingFreeType in the program). Ball and
+   * text are hidden by what lies in front of them.
+   */
   void SetLandmarks(vtkPolyData* points);
+  vtkSetMacro(ShowLandmarkTexts, bool);
+  vtkGetMacro(ShowLandmarkTexts, bool);
+  vtkBooleanMacro(ShowLandmarkTexts, bool);
+  ///@}
 
   ///@{
   /**
@@ -211,8 +223,9 @@ public:
   void IncludeInClippingRange(vtkRenderer* renderer);
 
   /**
-   * Bounds of the HIP and the god-object, in the world frame [world unit]. UseBounds is off, so a
-   * renderer ignores them.
+   * Bounds of the HIP, the god-object, the landmarks and the trail where it is shown, in the world
+   * frame [world unit]. UseBounds is off, so that ResetCamera() ignores them; a renderer leaves out
+   * what has them out of its view.
    */
   double* GetBounds() override;
 
@@ -247,7 +260,8 @@ private:
   void MakeMarks();
   void ArrangeMarks(vtkViewport* viewport);
   void ArrangeLegend(vtkViewport* viewport);
-  std::vector<vtkActor*> Parts() const;
+  void ArrangeTexts(vtkViewport* viewport, double ball);
+  std::vector<vtkProp3D*> Parts() const;
 
   double HapticInterfacePoint[3] = { 0.0, 0.0, 0.0 };
   double GodObject[3] = { 0.0, 0.0, 0.0 };
@@ -261,6 +275,7 @@ private:
   bool ShowContact = true;
   bool ShowTrail = false;
   bool ShowActiveTriangles = false;
+  bool ShowLandmarkTexts = true;
   bool ColorForceByMagnitude = false;
   bool ShowLegend = false;
   bool SeeThrough = true;
@@ -275,6 +290,7 @@ private:
   vtkNew<vtkActor> TrailPart;
   vtkNew<vtkActor> TrianglesPart;
   vtkNew<vtkActor> LandmarksPart;
+  std::vector<vtkSmartPointer<vtkBillboardTextActor3D>> LandmarkTexts;
   vtkSmartPointer<vtkScalarBarActor> Legend; // made when first shown
   vtkNew<vtkProperty> GodObjectLook;
   vtkNew<vtkProperty> TouchingLook;
@@ -288,6 +304,7 @@ private:
     bool Touching;
   };
   std::vector<TrailPoint> TrailPoints;
+  vtkBoundingBox TrailBounds;
   bool TrailChanged = false;
 };
 

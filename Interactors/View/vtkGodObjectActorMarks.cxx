@@ -4,11 +4,13 @@
 
 #include "haptics/View/ForceColor.h"
 #include "vtkActor.h"
+#include "vtkBillboardTextActor3D.h"
 #include "vtkCamera.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkLookupTable.h"
 #include "vtkMath.h"
+#include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
@@ -16,13 +18,17 @@
 #include "vtkRenderer.h"
 #include "vtkScalarBarActor.h"
 #include "vtkShaderProperty.h"
+#include "vtkStringArray.h"
 #include "vtkTextProperty.h"
+#include "vtkTextRenderer.h"
 #include "vtkUniforms.h"
 #include "vtkUnsignedCharArray.h"
+#include "vtkWindow.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 
 namespace
 {
@@ -30,6 +36,10 @@ constexpr int LegendColors = 128;
 constexpr double DefaultSize = 0.012; // of the view's height
 constexpr double TrianglesLift = 1.0; // [pixel] towards the viewer
 constexpr double TrailLift = 4.0;     // a line's width more: half of it dips into a slope
+constexpr double TextHeight = 0.045;  // of the view's height
+constexpr double SmallestText = 10.0; // [pixel]
+constexpr double LargestText = 15.0;  // [pixel]
+constexpr double TextLift = 1.5;      // in heights of the text
 constexpr vtkIdType RingBands = 3;
 constexpr double RingEdge = 0.1; // grey of the dark bands
 constexpr const char* LiftUniform = "hapticsLift";
@@ -72,6 +82,35 @@ void Lift(vtkActor* part, vtkViewport* viewport, double pixels)
     LiftUniform, static_cast<float>(lift));
 }
 
+/// The height of what is seen at a distance [world unit].
+double ViewHeight(vtkCamera* camera, double distance)
+{
+  return 2.0 *
+    (camera->GetParallelProjection()
+        ? camera->GetParallelScale()
+        : distance * std::tan(0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle())));
+}
+
+/// Bright on a dark ground with a bright edge, to be read over anything.
+vtkSmartPointer<vtkBillboardTextActor3D> MakeText()
+{
+  auto text = vtkSmartPointer<vtkBillboardTextActor3D>::New();
+  text->PickableOff();
+  text->UseBoundsOff();
+  text->ForceOpaqueOn();
+  vtkTextProperty* const look = text->GetTextProperty();
+  look->SetFontFamilyToArial();
+  look->SetColor(0.96, 0.97, 0.98);
+  look->SetBackgroundColor(0.09, 0.11, 0.15);
+  look->SetBackgroundOpacity(1.0);
+  look->SetFrame(true);
+  look->SetFrameColor(0.96, 0.97, 0.98);
+  look->SetFrameWidth(1);
+  look->SetJustificationToLeft();
+  look->SetVerticalJustificationToCentered();
+  return text;
+}
+
 bool AllFinite(const double v[3])
 {
   return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
@@ -95,7 +134,13 @@ void vtkGodObjectActor::AddTrailPoint(const double point[3], bool touching)
   {
     const auto kept = static_cast<std::ptrdiff_t>(this->MaximumTrailPoints / 2);
     this->TrailPoints.erase(this->TrailPoints.begin(), this->TrailPoints.end() - kept);
+    this->TrailBounds.Reset();
+    for (const TrailPoint& last : this->TrailPoints)
+    {
+      this->TrailBounds.AddPoint(last.Position[0], last.Position[1], last.Position[2]);
+    }
   }
+  this->TrailBounds.AddPoint(point[0], point[1], point[2]);
   this->TrailPoints.push_back({ { point[0], point[1], point[2] }, touching });
   this->TrailChanged = true;
   this->Modified();
@@ -106,6 +151,7 @@ void vtkGodObjectActor::ClearTrail()
   if (!this->TrailPoints.empty())
   {
     this->TrailPoints.clear();
+    this->TrailBounds.Reset();
     this->TrailChanged = true;
     this->Modified();
   }
@@ -261,9 +307,54 @@ void vtkGodObjectActor::ArrangeMarks(vtkViewport* viewport)
     this->ShowActiveTriangles && this->Touching && this->Triangles->GetNumberOfPolys() > 0);
   this->LandmarksPart->SetVisibility(this->Landmarks->GetNumberOfPoints() > 0);
   this->LandmarksPart->GetProperty()->SetPointSize(static_cast<float>(pixels));
+  this->ArrangeTexts(viewport, pixels);
   if (this->ShowLegend)
   {
     this->ArrangeLegend(viewport);
+  }
+}
+
+/// Each text stands on the right of its ball, as large on the screen wherever it is. It is a flat
+/// picture that faces the viewer and would sink into the slope that the ball lies on: so it is
+/// taken towards the viewer by its own height, which does not change where it is seen, and only
+/// what lies further in front than that hides it.
+void vtkGodObjectActor::ArrangeTexts(vtkViewport* viewport, double ball)
+{
+  vtkRenderer* const renderer = vtkRenderer::SafeDownCast(viewport);
+  vtkWindow* const window = viewport->GetVTKWindow();
+  const bool shown = this->ShowLandmarkTexts && renderer && window;
+  // A picture at a multiple of the window's size is drawn in tiles; VTK makes its text larger.
+  const int tiles = window ? window->GetTileScale()[1] : 1;
+  const double view = std::max(1, viewport->GetSize()[1]); // [pixel]
+  const double font = std::min(LargestText, std::max(SmallestText, TextHeight * view));
+  for (std::size_t i = 0; i < this->LandmarkTexts.size(); ++i)
+  {
+    vtkBillboardTextActor3D* const text = this->LandmarkTexts[i];
+    text->SetVisibility(shown);
+    if (!shown)
+    {
+      continue;
+    }
+    text->GetTextProperty()->SetFontSize(static_cast<int>(font));
+    text->SetDisplayOffset(static_cast<int>(tiles * (0.5 * ball + 0.3 * font)), 0);
+    vtkCamera* const camera = renderer->GetActiveCamera();
+    double anchor[3];
+    this->Landmarks->GetPoint(static_cast<vtkIdType>(i), anchor);
+    double toViewer[3];
+    const double* const axis = camera->GetDirectionOfProjection();
+    for (int k = 0; k < 3; ++k)
+    {
+      toViewer[k] =
+        camera->GetParallelProjection() ? -axis[k] : camera->GetPosition()[k] - anchor[k];
+    }
+    const double distance = vtkMath::Normalize(toViewer);
+    const double height = ViewHeight(camera, distance);
+    const double lift = std::min(TextLift * font * height / view, 0.5 * distance);
+    for (int k = 0; k < 3; ++k)
+    {
+      anchor[k] += lift * toViewer[k];
+    }
+    text->SetPosition(anchor);
   }
 }
 
@@ -331,6 +422,21 @@ void vtkGodObjectActor::SetLandmarks(vtkPolyData* points)
   if (points)
   {
     this->Landmarks->ShallowCopy(points);
+  }
+  auto* const texts =
+    vtkStringArray::SafeDownCast(this->Landmarks->GetPointData()->GetAbstractArray("Text"));
+  // Without VTK's text renderer there is none in the program.
+  const bool isWritten = texts && vtkTextRenderer::GetInstance();
+  this->LandmarkTexts.resize(
+    isWritten ? static_cast<std::size_t>(this->Landmarks->GetNumberOfPoints()) : 0);
+  for (std::size_t i = 0; i < this->LandmarkTexts.size(); ++i)
+  {
+    if (!this->LandmarkTexts[i])
+    {
+      this->LandmarkTexts[i] = MakeText();
+    }
+    const std::string text = " " + texts->GetValue(static_cast<vtkIdType>(i)) + " ";
+    this->LandmarkTexts[i]->SetInput(text.c_str());
   }
   this->Landmarks->Modified();
   this->Modified();

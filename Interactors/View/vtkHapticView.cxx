@@ -1,6 +1,5 @@
 #include "vtkHapticView.h"
 
-#include "haptics/Filters/LengthUnit.h"
 #include "haptics/Tick/TickRecord.h"
 #include "vtkCallbackCommand.h"
 #include "vtkGodObjectActor.h"
@@ -12,7 +11,8 @@
 #include "vtkMath.h"
 #include "vtkObjectFactory.h"
 
-#include <sstream>
+#include <cmath>
+#include <string>
 #include <vector>
 
 vtkStandardNewMacro(vtkHapticView);
@@ -128,16 +128,9 @@ std::string vtkHapticView::DescribeLandmarks()
   {
     return {};
   }
-  std::ostringstream text;
-  text.precision(5);
-  text << "landmark " << landmarks->GetLabel(last);
-  if (last > 0)
-  {
-    text << ": " << landmarks->GetStraightDistance(last - 1, last);
-    const std::string unit = haptics::LengthUnitName(this->Scene->GetUnitLength());
-    text << (unit.empty() ? "" : " ") << unit << " from " << landmarks->GetLabel(last - 1);
-  }
-  return text.str();
+  const bool isApart = std::isfinite(landmarks->GetDistanceToPrevious(last));
+  return "landmark " + landmarks->GetText(last) +
+    (isApart ? " from " + landmarks->GetLabel(last - 1) : "");
 }
 
 vtkGodObjectActor* vtkHapticView::GetGodObjectActor()

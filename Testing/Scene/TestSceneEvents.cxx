@@ -408,6 +408,75 @@ TEST(HapticLandmarks, TheWayAlongASphereIsTheGreatCircle)
   EXPECT_GT(length, hand.Scene->GetLandmarks()->GetStraightDistance(first, second));
 }
 
+/// On a sheet that is folded: straight through the air, or along it.
+TEST(HapticLandmarks, TheChosenDistanceIsWrittenBesideThem)
+{
+  LedHand hand;
+  auto sheet = MakeTable(0.0);
+  hand.Scene->AddSurface(sheet);
+  vtkHapticLandmarks* const marks = hand.Scene->GetLandmarks();
+  for (const double x : { -0.03, 0.0, 0.05 })
+  {
+    hand.Device->SetPosition(x, 0.01, 0.01);
+    hand.Scene->Step(1);
+    hand.Device->SetPosition(x, 0.01, -0.001);
+    hand.Scene->Step(1);
+    ASSERT_GE(hand.Scene->DropLandmark(), 0);
+  }
+  EventCounter errors(marks, vtkCommand::ErrorEvent);
+  const auto text = [&](int i)
+  {
+    return vtkStringArray::SafeDownCast(
+      marks->GetOutput()->GetPointData()->GetAbstractArray("Text"))
+      ->GetValue(i);
+  };
+  const auto ways = [&]
+  { return marks->GetOutput()->GetPointData()->GetArray("DistanceAlongSurface"); };
+  EXPECT_EQ(text(0), "1");
+  EXPECT_EQ(text(1), "2: 0.03") << "of an unknown unit";
+  marks->SetUnitLength(0.001);
+  EXPECT_EQ(text(2), "3: 0.05 mm");
+  EXPECT_EQ(ways(), nullptr);
+  marks->SetDistance(vtkHapticLandmarks::NO_DISTANCE);
+  EXPECT_EQ(text(1), "2");
+  marks->SetDistance(vtkHapticLandmarks::ALONG_SURFACE);
+  ASSERT_NE(ways(), nullptr);
+  EXPECT_TRUE(std::isnan(ways()->GetComponent(0, 0)));
+  EXPECT_NEAR(ways()->GetComponent(1, 0), 0.03, 1e-9) << "it is flat";
+
+  // Steeper by and by: 3 along, 4 up, 5 along it.
+  hand.Device->SetPosition(0.0, 0.0, 1.0);
+  const double highest = 4.0 / 3.0;
+  for (int step = 1; step <= 4; ++step)
+  {
+    for (vtkIdType k = 0; k < 4; ++k)
+    {
+      double q[3];
+      sheet->GetPoint(k, q);
+      sheet->GetPoints()->SetPoint(k, q[0], q[1], 0.25 * step * highest * q[0]);
+    }
+    sheet->GetPoints()->Modified();
+    sheet->Modified();
+    hand.Scene->Step(1);
+  }
+  hand.Scene->Step(300);
+  EXPECT_EQ(text(1), "2: 0.05 mm");
+  EXPECT_NEAR(ways()->GetComponent(1, 0), 0.05, 1e-6);
+  EXPECT_NEAR(marks->GetDistanceToPrevious(2), 0.05 * 5.0 / 3.0, 1e-6);
+  ASSERT_TRUE(marks->Remove(1));
+  EXPECT_EQ(text(1), "3: 0.13333 mm") << "the one before is another one now";
+  hand.Scene->RemoveAllSurfaces();
+  hand.Scene->AddSurface(MakeTable(0.0));
+  hand.MoveTo(0.01);
+  hand.MoveTo(-0.001);
+  ASSERT_EQ(hand.Scene->DropLandmark(), 2);
+  EXPECT_EQ(text(2), "4") << "there is no way to another surface";
+  EXPECT_EQ(errors.Count, 0);
+  EXPECT_TRUE(std::isnan(marks->GetDistanceToPrevious(7)));
+  EXPECT_EQ(marks->GetText(7), "");
+  EXPECT_EQ(errors.Count, 2);
+}
+
 TEST(HapticLandmarks, BetweenTwoSurfacesThereIsNoWay)
 {
   LedHand hand;
