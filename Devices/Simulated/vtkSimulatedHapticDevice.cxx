@@ -156,13 +156,20 @@ bool ReadPolyData(vtkPolyData* data, std::vector<haptics::DevicePoint>& points,
   }
   return true;
 }
+
+/// The least with which a spring that is sampled at 1 kHz makes no energy [N s/m].
+double DampingFor(double stiffness)
+{
+  constexpr double ServoPeriod = 0.001; // [s]
+  return 0.5 * stiffness * ServoPeriod;
+}
 }
 
 vtkSimulatedHapticDevice::vtkSimulatedHapticDevice()
 {
   this->MaximumForce = 3.3;
   this->MaximumStiffness = 1000.0;
-  this->Damping = 0.35;
+  this->Damping = DampingFor(this->MaximumStiffness);
   this->NumberOfButtons = 2;
   this->SetWorkspaceBounds(-0.08, 0.08, -0.06, 0.06, -0.035, 0.035);
 }
@@ -170,6 +177,31 @@ vtkSimulatedHapticDevice::vtkSimulatedHapticDevice()
 vtkSimulatedHapticDevice::~vtkSimulatedHapticDevice()
 {
   this->SetPath(nullptr);
+}
+
+void vtkSimulatedHapticDevice::SetMaximumStiffness(double value)
+{
+  value = std::clamp(value, 0.0, VTK_DOUBLE_MAX); // NaN stays: Open() reports it
+  if (this->MaximumStiffness != value)
+  {
+    this->MaximumStiffness = value;
+    this->Modified();
+  }
+  if (!this->DampingIsSet)
+  {
+    this->Damping = DampingFor(this->MaximumStiffness);
+  }
+}
+
+void vtkSimulatedHapticDevice::SetDamping(double value)
+{
+  value = std::clamp(value, 0.0, VTK_DOUBLE_MAX);
+  this->DampingIsSet = true;
+  if (this->Damping != value)
+  {
+    this->Damping = value;
+    this->Modified();
+  }
 }
 
 bool vtkSimulatedHapticDevice::Open()
@@ -235,11 +267,11 @@ void vtkSimulatedHapticDevice::SetPreset(int preset)
     return;
   }
   const Numbers& numbers = presets[preset];
-  constexpr double ServoPeriod = 0.001; // [s]
   this->Body = true;
   this->MaximumForce = numbers.MaximumForce;
   this->MaximumStiffness = numbers.MaximumStiffness;
-  this->Damping = 0.5 * numbers.MaximumStiffness * ServoPeriod;
+  this->Damping = DampingFor(numbers.MaximumStiffness);
+  this->DampingIsSet = false;
   this->Mass = numbers.Mass;
   this->CoulombFriction = numbers.Coulomb;
   this->EncoderResolution = numbers.Encoder;

@@ -173,12 +173,15 @@ public:
 
   ///@{
   /**
-   * The limits that this device claims to have. Defaults: 3.3 N, 1000 N/m, 0.35 N s/m, a box of
-   * 160 by 120 by 70 mm around the origin, 2 buttons. Motions may leave the box.
+   * The limits that this device claims to have. Defaults: 3.3 N, 1000 N/m, a box of 160 by 120 by
+   * 70 mm around the origin, 2 buttons. Motions may leave the box. Damping [N s/m] is, until it is
+   * set, what it takes to hold MaximumStiffness K without shaking at 1 kHz, K T / 2 (Colgate and
+   * Schenkel 1997), so 0.5; a stiffness beyond vtkHapticSafety's margin of 2 Damping / T is not
+   * rendered.
    */
   vtkSetClampMacro(MaximumForce, double, 0.0, VTK_DOUBLE_MAX);
-  vtkSetClampMacro(MaximumStiffness, double, 0.0, VTK_DOUBLE_MAX);
-  vtkSetClampMacro(Damping, double, 0.0, VTK_DOUBLE_MAX);
+  void SetMaximumStiffness(double value);
+  void SetDamping(double value);
   vtkSetVector6Macro(WorkspaceBounds, double);
   vtkSetClampMacro(NumberOfButtons, int, 0, 32);
   ///@}
@@ -256,6 +259,7 @@ private:
   double PressDepth = 0.005;
   double StrokeClearance = 0.01;
   double StrokeInset = 0.05;
+  bool DampingIsSet = false;
   bool Body = false;
   double Mass = 0.045;
   double CoulombFriction = 0.0;

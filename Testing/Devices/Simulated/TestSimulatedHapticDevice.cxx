@@ -354,6 +354,22 @@ TEST(SimulatedHapticDevice, StaysClosedWithASplineThroughOnePoint)
   ExpectFailsToOpen(device, "two different points");
 }
 
+TEST(SimulatedHapticDevice, HasTheDampingThatItsStiffnessNeedsUntilOneIsSet)
+{
+  vtkNew<vtkSimulatedHapticDevice> device;
+  EXPECT_EQ(device->GetDamping(), 0.5) << "1000 N/m at 1 kHz";
+  device->SetMaximumStiffness(2000.0);
+  EXPECT_EQ(device->GetDamping(), 1.0);
+  device->SetDamping(0.35);
+  device->SetMaximumStiffness(3000.0);
+  EXPECT_EQ(device->GetDamping(), 0.35);
+  device->SetPreset(vtkSimulatedHapticDevice::Omni);
+  EXPECT_DOUBLE_EQ(device->GetDamping(), 0.35) << "that of 700 N/m";
+  device->SetMaximumStiffness(-1.0);
+  EXPECT_EQ(device->GetMaximumStiffness(), 0.0);
+  EXPECT_EQ(device->GetDamping(), 0.0) << "not known";
+}
+
 TEST(SimulatedHapticDevice, PrintsItsStateAndLimitsWithUnits)
 {
   vtkNew<vtkSimulatedHapticDevice> device;
