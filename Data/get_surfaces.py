@@ -22,6 +22,10 @@ import zipfile
 
 import surface_formats
 
+# Needs no build.
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "Interactors/Python/vtkhaptics"))
+from output import OutputError, write_bytes  # noqa: E402
+
 SYSTEM_PYTHON = "/usr/bin/python3"  # the one that Debian's NumPy and VTK are made for
 DEFAULT_FOLDER = pathlib.Path(__file__).resolve().parent.parent / "build" / "surfaces"
 
@@ -196,14 +200,10 @@ def fetch(surface, folder):
 
 def write(path, content):
     """Whole or not at all, so that a file that is there can be trusted."""
-    partial = path.with_name(path.name + ".partial")
     try:
-        partial.write_bytes(content)
-        os.replace(partial, path)
-    except OSError as error:
-        partial.unlink(missing_ok=True)
-        raise Unavailable(f"{path} cannot be written: {error.strerror}. Free some space there, or "
-                          "give another folder with --output") from error
+        write_bytes(path, content)
+    except OutputError as error:
+        raise Unavailable(f"{error} --output gives the folder.") from error
 
 
 def get(name, folder):

@@ -7,6 +7,7 @@ usage: TestCharts.py BASELINE_FOLDER OUTPUT_FOLDER
 import math
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -84,6 +85,36 @@ def contact_table(build_type):
         return (build / "table.csv").read_text(encoding="utf-8")
 
 
+def interrupted_charts(ending):
+    """The tables that charts.sh leaves, and its temporary files, where the measuring ends early."""
+    with tempfile.TemporaryDirectory() as scratch:
+        root = pathlib.Path(scratch)
+        here = root / "Testing" / "Benchmarks"
+        for folder in (here / "results", root / "build" / "bin", root / "Data", root / "tmp"):
+            folder.mkdir(parents=True)
+        source = pathlib.Path(__file__).parent
+        for name in ("charts.sh", "head.sh"):
+            shutil.copy(source / name, here)
+        (root / "Interactors").symlink_to(source.parents[1] / "Interactors")
+        (root / "Data" / "get_surfaces.py").touch()
+        (root / "build" / "CMakeCache.txt").write_text(
+            "CMAKE_CXX_COMPILER:FILEPATH=/bin/echo\n", encoding="utf-8")
+        for name in ("HapticsMeasure", "HapticsSceneTraces"):
+            program = root / "build" / "bin" / name
+            program.write_text(f"#!/bin/sh\necho name,value\n[ $1 != detail ] || {ending}\n",
+                               encoding="utf-8")
+            program.chmod(0o755)
+        for part in ("boundaries", "engines", "detail", "methods", "cost"):
+            (here / "results" / f"{part}.csv").write_text("old\n", encoding="utf-8")
+        environment = {**os.environ, "TMPDIR": str(root / "tmp")}
+        environment.pop("BUILD", None)
+        done = subprocess.run(["sh", here / "charts.sh"], env=environment, check=False,
+                              capture_output=True)
+        assert done.returncode != 0, done
+        tables = {path.name: path.read_text(encoding="utf-8") for path in (here / "results").iterdir()}
+        return tables, os.listdir(root / "tmp")
+
+
 def looks_alike(picture, baseline, output):
     reader, testing = vtkPNGReader(), vtkTesting()
     reader.SetFileName(str(picture))
@@ -95,6 +126,11 @@ def looks_alike(picture, baseline, output):
 table = contact_table("Debug")
 if ", Debug\n" not in table or '"Made_median",1' not in table:
     sys.exit("contact.sh does not say what was built:\n" + table)
+for ending in ("exit 1", "kill -TERM $PPID"):
+    tables, remains = interrupted_charts(ending)
+    if len(tables) != 5 or remains or "name,value" not in tables["engines.csv"] or \
+            any(tables[f"{part}.csv"] != "old\n" for part in ("detail", "methods", "cost")):
+        sys.exit(f"charts.sh, ended by '{ending}', leaves {tables} and {remains}")
 
 baselines, output = (pathlib.Path(p).resolve() for p in sys.argv[1:3])
 drawn = output / "Charts"  # vtkTesting leaves files of the same names in `output`

@@ -45,9 +45,7 @@ if [ -z "$draw" ]; then
     t13 gearbox pial fault >/dev/null ||
     echo "Some real surfaces could not be had: the tables will be without them." >&2
 
-  head=$(mktemp)
-  rows=$(mktemp)
-  trap 'rm -f "$head" "$rows"' EXIT
+  make_scratch head table
   {
     print_head
     echo "# libraries: $("$measure" --versions)"
@@ -55,8 +53,10 @@ if [ -z "$draw" ]; then
   } > "$head"
   mkdir -p "$results"
   for part in boundaries engines detail methods cost; do
-    "$measure" "$part" $full --surfaces "$surfaces" > "$rows"
-    cat "$head" "$rows" > "$results/$part.csv"
+    write_whole "$results/$part.csv"
+    cp "$head" "$table"
+    "$measure" "$part" $full --surfaces "$surfaces" >> "$table"
+    write_whole "$results/$part.csv" "$table"
   done
   "$build/bin/HapticsSceneTraces" "$results"
 fi

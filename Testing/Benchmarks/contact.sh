@@ -13,6 +13,8 @@ if [ ! -x "$program" ]; then
   echo "No $program: build first, for example with sh Testing/test.sh; it needs libbenchmark-dev." >&2
   exit 1
 fi
+mkdir -p "$(dirname "$out")"
+write_whole "$out"
 
 # The frog's 1.5 million triangles; without a registry in reach that one stroke is left out.
 HAPTICS_SURFACES=${HAPTICS_SURFACES:-$build/surfaces}
@@ -20,16 +22,14 @@ export HAPTICS_SURFACES
 /usr/bin/python3 "$root/Data/get_surfaces.py" --output "$HAPTICS_SURFACES" frog >&2 ||
   echo "The frog could not be had." >&2
 
-head=$(mktemp)
-rows=$(mktemp)
-trap 'rm -f "$head" "$rows"' EXIT
+make_scratch head rows table
 print_head > "$head"
 # Interleaved, so that a machine that is slower for some seconds is so for every row.
 "$program" --benchmark_enable_random_interleaving=true --benchmark_out="$rows" --benchmark_out_format=csv >&2
-mkdir -p "$(dirname "$out")"
 {
   cat "$head"
   grep '^name' "$rows"
   grep _median "$rows" | sort
-} > "$out"
+} > "$table"
+write_whole "$out" "$table"
 echo "$out"

@@ -3,9 +3,15 @@
 A README has lines `<!-- table: NAME -->` and `<!-- end -->`; what is between them is replaced.
 """
 
+import pathlib
 import re
+import sys
 
 from measured import per_hour, rows, short
+
+# Needs no build.
+sys.path.append(str(pathlib.Path(__file__).parents[2] / "Interactors/Python/vtkhaptics"))
+from output import write_bytes  # noqa: E402
 
 METHODS = (  # name in the results: name in the table
     ("nearest surface", "nearest surface (Fig. 2b)"),
@@ -124,4 +130,4 @@ def fill(readme, results):
         if mark.search(text):
             lines = "\n".join(table(results))
             text = mark.sub(lambda match: match[1] + "\n" + lines + "\n" + match[2], text)
-    readme.write_text(text, encoding="utf-8")
+    write_bytes(readme, text.encode())

@@ -217,6 +217,45 @@ TEST_F(OutputFileTest, BeyondTheLimitOnFilesIsAnErrorAndNoSignal)
   }
 }
 
+TEST_F(OutputFileTest, OfAProcessThatWasKilledLeavesNoRemains)
+{
+  const int probe = open(this->Folder.c_str(), O_WRONLY | O_TMPFILE, 0600);
+  if (probe < 0)
+  {
+    GTEST_SKIP() << "this file system has no files without names";
+  }
+  close(probe);
+  const std::string name = this->Path("a");
+  Put(name, "old");
+  const pid_t child = fork();
+  if (child == 0)
+  {
+    OutputFile file;
+    std::string error;
+    if (file.Open(name, error) && file.Write("new", 3, error) && file.Sync(error))
+    {
+      raise(SIGKILL);
+    }
+    _exit(1);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFSIGNALED(status));
+  EXPECT_EQ(Text(name), "old");
+  EXPECT_EQ(this->NumberOfFiles(), 1u);
+}
+
+TEST_F(OutputFileTest, GoesWhereItIsRun)
+{
+  const fs::path before = fs::current_path();
+  fs::current_path(this->Folder);
+  EXPECT_EQ(Replace("here", "new"), "");
+  EXPECT_EQ(Replace("./here", "newer"), "");
+  fs::current_path(before);
+  EXPECT_EQ(Text(this->Path("here")), "newer");
+  EXPECT_EQ(this->NumberOfFiles(), 1u);
+}
+
 TEST_F(OutputFileTest, OnAFullDiskLeavesTheOldOneAndNoRemains)
 {
   // A disk of 64 kB that only this child sees.

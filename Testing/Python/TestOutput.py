@@ -2,6 +2,7 @@
 
 import os
 import resource
+import signal
 import stat
 import subprocess
 import sys
@@ -93,6 +94,16 @@ def test_what_fails_leaves_the_old_file(folder):
     except KeyboardInterrupt:
         pass
     assert content(path) == b"old" and os.listdir(folder) == ["a"]
+    # Killed in the midst of it, by what no program can catch.
+    script = """import os, signal, sys
+from vtkhaptics.output import whole_file
+with whole_file(sys.argv[1]) as file:
+    file.write(b"new")
+    file.flush()
+    os.kill(os.getpid(), signal.SIGKILL)"""
+    killed = subprocess.run([sys.executable, "-c", script, path], check=False)
+    assert killed.returncode == -signal.SIGKILL, killed
+    assert content(path) == b"old" and os.listdir(folder) == ["a"] or not hasattr(os, "O_TMPFILE")
     os.mkfifo(os.path.join(folder, "fifo"))
     refusal(lambda: write_bytes(os.path.join(folder, "fifo"), b""), "fifo", "no regular file")
     refusal(lambda: write_bytes("/dev/full", b""), "/dev/full", "no regular file")

@@ -14,6 +14,7 @@ out=${1:-$root/packages}
 version=$(sed -n 's/^project(VTKHaptics VERSION \([0-9.]*\).*/\1/p' "$root/CMakeLists.txt")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
+trap 'exit 1' HUP INT TERM # dash runs no EXIT trap where a signal ends it
 tree=$work/vtkhaptics-$version
 git -C "$root" archive --prefix="vtkhaptics-$version/" HEAD | tar -x -C "$work"
 tar -C "$work" -czf "$work/vtkhaptics_$version.orig.tar.gz" "vtkhaptics-$version"

@@ -73,6 +73,21 @@ std::string Cause(int cause)
   }
 }
 
+const std::string DescriptorFolder = "/proc/self/fd/";
+
+/// A file in a folder that nothing names yet, so that it is gone with the process; or -1 where the
+/// system has no such files.
+int OpenWithoutName(const fs::path& folder, mode_t mode)
+{
+#ifdef O_TMPFILE
+  if (access(DescriptorFolder.c_str(), X_OK) == 0) // by which it gets a name
+  {
+    return open(folder.empty() ? "." : folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, mode);
+  }
+#endif
+  return -1;
+}
+
 /// A write beyond the limit on the size of files comes with a signal that ends the process.
 class FileSizeSignalBlock
 {
@@ -168,21 +183,19 @@ bool OutputFile::Open(const std::string& fileName, std::string& error)
     }
   }
   const mode_t mode = isThere ? present.st_mode & 0777 : 0666;
-  static std::atomic<unsigned> count{ 0 };
-  constexpr std::size_t longestBase = 200; // with what is added a name may have 255 bytes
-  do
-  {
-    this->Partial = (fs::path(this->Target).parent_path() /
-      ("." + base.substr(0, longestBase) + "." + std::to_string(getpid()) + "-" +
-        std::to_string(count++) + ".part"))
-                      .string();
-    this->Descriptor =
-      open(this->Partial.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
-  } while (this->Descriptor < 0 && errno == EEXIST);
+  this->IsPublished = false;
+  this->Descriptor = OpenWithoutName(fs::path(this->Target).parent_path(), mode);
   if (this->Descriptor < 0)
   {
-    this->Partial.clear();
-    return this->Fail(errno, error);
+    const auto create = [this, mode](const char* name)
+    {
+      this->Descriptor = open(name, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
+      return this->Descriptor >= 0;
+    };
+    if (!this->TakePartialName(create))
+    {
+      return this->Fail(errno, error);
+    }
   }
   // Where the system has no locks nothing is lost: IsIntact() notices another writer.
   (void)flock(this->Descriptor, LOCK_EX | LOCK_NB);
@@ -239,13 +252,46 @@ bool OutputFile::WriteWhole(
     file.Publish(error) && file.Close(error);
 }
 
+template <typename Take>
+bool OutputFile::TakePartialName(const Take& take)
+{
+  static std::atomic<unsigned> count{ 0 };
+  constexpr std::size_t longestBase = 200; // with what is added a name may have 255 bytes
+  const fs::path target = this->Target;
+  do
+  {
+    const std::string name = "." + target.filename().string().substr(0, longestBase) + "." +
+      std::to_string(getpid()) + "-" + std::to_string(count++) + ".part";
+    this->Partial = (target.parent_path() / name).string();
+    if (take(this->Partial.c_str()))
+    {
+      return true;
+    }
+  } while (errno == EEXIST);
+  this->Partial.clear();
+  return false;
+}
+
 bool OutputFile::Publish(std::string& error)
 {
+  if (this->IsPublished)
+  {
+    return true;
+  }
+  const std::string handle = DescriptorFolder + std::to_string(this->Descriptor);
+  const auto link = [&handle](const char* name)
+  { return linkat(AT_FDCWD, handle.c_str(), AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0; };
+  // No call puts a file without a name in place of another: it takes a name for a moment.
+  if (this->Partial.empty() && !this->TakePartialName(link))
+  {
+    return this->Fail(errno, error);
+  }
   if (std::rename(this->Partial.c_str(), this->Target.c_str()) != 0)
   {
     return this->Fail(errno, error);
   }
   this->Partial.clear();
+  this->IsPublished = true;
   return true;
 }
 
@@ -296,13 +342,15 @@ bool OutputFile::Close(std::string& error)
   {
     return true;
   }
-  const bool isPublished = this->Partial.empty();
   const bool isClosed = close(std::exchange(this->Descriptor, -1)) == 0;
   const int cause = errno;
-  if (!isPublished)
+  if (!this->IsPublished)
   {
-    std::remove(this->Partial.c_str());
-    this->Partial.clear();
+    if (!this->Partial.empty())
+    {
+      std::remove(this->Partial.c_str());
+      this->Partial.clear();
+    }
     return true;
   }
   return isClosed || this->Fail(cause, error);

@@ -11,10 +11,12 @@ namespace haptics
 {
 /// @brief A file that takes the place of one of its name as a whole, or leaves that as it was.
 ///
-/// It is written under another name in the same folder; Publish() gives it its own. Until then, and
-/// where anything fails before, the name has what it had, and nothing else is left. Links are
-/// followed: what they point to is replaced. Mode, owner and group are those of the file that is
-/// replaced, where there is one and the system allows it, or go by the umask.
+/// It is written in the same folder without a name; Publish() gives it its own. Until then, and
+/// where anything fails before or ends the process, the name has what it had, and nothing else is
+/// left. (Where the file system has no files without names it has a hidden one, "*.part", which
+/// stays if the process ends before.) Links are followed: what they point to is replaced. Mode,
+/// owner and group are those of the file that is replaced, where there is one and the system allows
+/// it, or go by the umask.
 ///
 /// What is no regular file (a folder, FIFO or device) is refused, so no call waits for another
 /// process; so is a file that another OutputFile, of any process, is still writing. A limit on the
@@ -54,10 +56,14 @@ public:
 
 private:
   bool Fail(int cause, std::string& error);
+  /// Sets Partial to the first hidden name that `take` takes; else errno says why it does not.
+  template <typename Take>
+  bool TakePartialName(const Take& take);
 
   std::string FileName; // as it was given, for messages
   std::string Target;   // links followed
-  std::string Partial;  // the name until Publish(); then empty
+  std::string Partial;  // a hidden name, while it has one
+  bool IsPublished = false;
   int Descriptor = -1;
   std::uint64_t Size = 0;
 };

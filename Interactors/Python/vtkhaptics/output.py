@@ -1,8 +1,11 @@
-"""Writes files whole or not at all, and never over what was read.
+"""Writes files whole or not at all, and never over what was read. Scripts without a build import it, too:
+VTK is needed for surfaces and pictures alone.
 
-A file is written under another name in its folder and then renamed, so that its name has the old file
-or the new one. Links are followed; mode and owner are those of the file that is replaced, or go by the
-umask. What fails is an OutputError that says what, where and what to do, and leaves no remains.
+A file without a name is written in the folder of its own, and named once it is whole, so that its name
+has the old file or the new one, whatever ends the program. (Where the file system has no files without
+names, a hidden one is renamed; SIGKILL then leaves that.) Links are followed; mode and owner are those
+of the file that is replaced, or go by the umask. What fails is an OutputError that says what, where and
+what to do, and leaves no remains.
 """
 
 import contextlib
@@ -11,10 +14,6 @@ import itertools
 import os
 import re
 import stat
-
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOImage import vtkPNGWriter
-from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
 _count = itertools.count()
 _LONGEST_BASE = 200  # with what is added a name may have 255 bytes
@@ -102,6 +101,18 @@ def check_outputs(outputs, inputs=()):
         written[target] = path
 
 
+def _open_without_name(folder, mode):
+    """A handle to write to a file that nothing names yet, or None where the system has no such files."""
+    if not hasattr(os, "O_TMPFILE") or not os.path.isdir("/proc/self/fd"):
+        return None
+    try:
+        return os.open(folder, os.O_WRONLY | os.O_TMPFILE, mode)
+    except OSError as error:
+        if error.errno in (errno.EOPNOTSUPP, errno.EISDIR, errno.EINVAL, errno.ENOENT):
+            return None
+        raise
+
+
 @contextlib.contextmanager
 def whole_file(path, inputs=(), text=False):
     """A binary (or text) file to write to, which becomes `path` at the end of the block.
@@ -114,10 +125,16 @@ def whole_file(path, inputs=(), text=False):
         target, status = _target(path)
         folder, base = os.path.split(target)
         name = os.fsdecode(os.fsencode(base)[:_LONGEST_BASE])
-        partial = os.path.join(folder, f".{name}.{os.getpid()}-{next(_count)}.part")
+        while True:  # what a process of the same number may have left is not taken
+            hidden = os.path.join(folder, f".{name}.{os.getpid()}-{next(_count)}.part")
+            if not os.path.lexists(hidden):
+                break
         mode = stat.S_IMODE(status.st_mode) & 0o777 if status else 0o666
-        flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_NOFOLLOW", 0)
-        handle = os.open(partial, flags, mode)
+        handle = _open_without_name(folder, mode)
+        if handle is None:
+            flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_NOFOLLOW", 0)
+            handle = os.open(hidden, flags, mode)
+            partial = hidden
         with open(handle, "w" if text else "wb", newline="" if text else None,
                   encoding="utf-8" if text else None) as file:
             if status:
@@ -127,6 +144,10 @@ def whole_file(path, inputs=(), text=False):
             yield file
             file.flush()
             os.fsync(handle)
+            if not partial:
+                # Python follows the link, which alone names the file, only where a folder is given.
+                os.link(f"/proc/self/fd/{handle}", hidden, src_dir_fd=handle)
+                partial = hidden
         os.replace(partial, target)
         partial = None
     except OutputError:
@@ -147,6 +168,8 @@ def write_bytes(path, content, inputs=()):
 
 def polydata_bytes(data):
     """A vtkPolyData as a .vtp file. Made in memory: VTK's writers end the process on a full disk."""
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+
     writer = vtkXMLPolyDataWriter()
     writer.SetInputData(data)
     writer.SetDataModeToBinary()  # see surfaces.py: not every VTK reads appended data
@@ -160,6 +183,9 @@ def polydata_bytes(data):
 
 def png_bytes(image):
     """A vtkImageData as a PNG file."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkIOImage import vtkPNGWriter
+
     writer = vtkPNGWriter()
     writer.SetInputData(image)
     writer.WriteToMemoryOn()
