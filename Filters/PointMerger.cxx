@@ -70,8 +70,8 @@ std::int32_t PointMerger::FindNear(const Vec3& point, const Vec3& cell) const
   double limit = this->Tolerance * this->Tolerance;
   for (int neighbour = 0; neighbour < 27; ++neighbour)
   {
-    const Vec3 other{ cell[0] + (neighbour % 3 - 1), cell[1] + (neighbour / 3 % 3 - 1),
-      cell[2] + (neighbour / 9 - 1) };
+    const int step[] = { neighbour % 3 - 1, neighbour / 3 % 3 - 1, neighbour / 9 - 1 };
+    const Vec3 other{ cell[0] + step[0], cell[1] + step[1], cell[2] + step[2] };
     for (std::int32_t i = this->Table[this->Slot(other)]; i >= 0; i = this->Next[i])
     {
       double squared = 0.0;

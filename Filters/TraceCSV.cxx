@@ -82,7 +82,7 @@ void WriteTable(vtkPolyData* trace, std::ostream& stream)
 
 std::string CSVField(const std::string& given)
 {
-  const std::string text = given.find_first_of("=+-@\t\r") == 0 ? "'" + given : given;
+  std::string text = given.find_first_of("=+-@\t\r") == 0 ? "'" + given : given;
   if (text.find_first_of(",\"\n\r") == std::string::npos)
   {
     return text;

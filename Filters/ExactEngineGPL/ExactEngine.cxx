@@ -112,6 +112,7 @@ public:
     this->List([&ball](const CGAL::Bbox_3& box) { return CGAL::do_overlap(box, ball); }, found);
   }
 
+  // NOLINTNEXTLINE(bugprone-exception-escape): of memory for exact numbers there is always enough
   void FindOnSegment(const Vec3& from, const Vec3& to, TriangleList& found) const noexcept override
   {
     const Kernel::Segment_3 segment(ToPoint(from), ToPoint(to));
