@@ -32,11 +32,11 @@ constexpr double SamePlace = 0.25;
 /// A pull that has grown by more than that has room for ways that were too long.
 constexpr double SameLength = 2.0;
 /// Where a goal rests, so many ways are tried in all directions that lead nearer to it, in each of
-/// so many updates others; they are at least so many clearances long.
+/// so many updates others; they are as long as what is near by: farther inside a facet than that,
+/// the facet holds.
 constexpr int WaysAround = 128;
 constexpr int RoundsAtRest = 4;
 constexpr std::int32_t MostLookedUpAtRest = 1 << 16; ///< triangles, each as often as it is
-constexpr double LengthAround = 32.0;
 
 /// The `i`th of `count` unit directions, evenly over the half-sphere about `ahead`, from there
 /// outwards along a spiral (of Fibonacci) that begins towards `side`.
@@ -121,24 +121,13 @@ struct Tries
     return length > 0.0 && length <= reach;
   }
 
-  /// How far it is in a direction, at least LengthAround, until a plane that holds is left in
-  /// front: short of that, nearer is only what the planes are kept off.
-  double LengthBehindOne(const Vector& position, const Vector& direction) const
+  /// Whether a place is behind a plane that holds, farther than any of them is kept off: short of
+  /// that, nearer to the goal is only nearer to the planes.
+  bool IsBehindOne(const Vector& place) const
   {
-    double length = HUGE_VAL;
-    double least = 0.0;
-    for (int i = 0; i < this->Held; ++i)
-    {
-      const ActivePlane& plane = this->Planes[i];
-      const double approach = -glm::dot(plane.Normal, direction);
-      least = std::max(least, LengthAround * plane.Clearance);
-      if (approach > 1e-6)
-      {
-        const double height = glm::dot(plane.Normal, position - plane.Anchor);
-        length = std::min(length, (height + DepthBehind * plane.Clearance) / approach);
-      }
-    }
-    return std::max(length, least);
+    return std::any_of(this->Planes.begin(), this->Planes.begin() + this->Held,
+      [&](const ActivePlane& plane)
+      { return glm::dot(plane.Normal, place - plane.Anchor) < -DepthBehind * plane.Clearance; });
   }
 };
 }
@@ -223,6 +212,11 @@ bool GodObject::Implementation::Release(const Vector& goal)
     const double distance = glm::length(pull);
     const Vector ahead = pull / distance;
     const Vector side = Across(ahead, tries.Planes[0].Anchor - this->Position);
+    double length = 0.0;
+    for (int i = 0; i < tries.Held; ++i)
+    {
+      length = std::max(length, NearBy * tries.Planes[i].Clearance);
+    }
     std::int32_t gathered = 0;
     for (std::size_t i = this->First; i < this->Last; ++i)
     {
@@ -235,34 +229,47 @@ bool GodObject::Implementation::Release(const Vector& goal)
     {
       const int i = this->Refused.Rounds - 1 + RoundsAtRest * (k * (WaysAround / most));
       const Vector direction = DirectionAround(i, count, ahead, side);
-      const double length = tries.LengthBehindOne(this->Position, direction);
-      if (length <= glm::dot(direction, pull) && tryStep(length * direction))
+      const Vector step = length * direction;
+      if (length > glm::dot(direction, pull))
+      {
+        return false; // this, and all that come after it, would go on beyond the foot of the goal
+      }
+      if (tries.IsBehindOne(this->Position + step) && tryStep(step))
       {
         return true;
       }
     }
     return false;
   };
-  if (this->Refused.Rounds > 1)
-  {
-    this->ReleasesLeft = 0;
-    return attemptAround();
-  }
-  if (attempt(-1, -1) || attemptAll())
+  const bool isRepeated = this->Refused.Rounds > 1;
+  if (!isRepeated && (attempt(-1, -1) || attemptAll()))
   {
     return true;
   }
   if (this->Refused.Rounds == 0)
   {
-    return false; // on its way
+    return false; // the goal is on its way
   }
   tries.Most = MostPlanesAtRest;
+  int near = 0;
+  bool isRimNear = false;
   for (std::size_t i = this->First; i < this->Last; ++i)
   {
-    this->Sets[i].VisitNear(NearBy, [&](const ActivePlane& plane) { tries.Add(plane); });
+    this->Sets[i].VisitNear(NearBy,
+      [&](const ActivePlane& plane, bool hasRim)
+      {
+        ++near;
+        isRimNear = isRimNear || hasRim;
+        tries.Add(plane);
+      });
   }
   this->ReleasesLeft = 0;
-  return attemptAll() || attemptAround();
+  if (near == tries.Held && !isRimNear)
+  {
+    this->Refused.Rounds = RoundsAtRest; // there is nothing around but what holds it
+    return false;
+  }
+  return (!isRepeated && attemptAll()) || attemptAround();
 }
 
 /// Whether a motion that is clear does not squeeze through a gap that facets close by reaching over

@@ -492,9 +492,7 @@ FacetHit WorkingSet::Scan(const Vector& to, const ActivePlanes& active)
     hit.Plane.Anchor = this->ToSurface.PointToScene(this->CornersOf(triangle).A);
     hit.Plane.Clearance = this->Clearance[i];
     hit.Plane.IsFar = this->Covered == Region::Segment;
-    hit.Plane.IsOfWire = this->Widths[i] == Width::Wire &&
-      (this->IsOpenEdge(triangle, 0) || this->IsOpenEdge(triangle, 1) ||
-        this->IsOpenEdge(triangle, 2));
+    hit.Plane.IsOfWire = this->Widths[i] == Width::Wire && this->HasOpenEdge(triangle);
   }
   return hit;
 }

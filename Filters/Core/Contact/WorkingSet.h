@@ -110,8 +110,9 @@ public:
   /// How many triangles a certificate looks at.
   std::int32_t GatheredTriangles() const { return this->Count; }
 
-  /// Calls visit(plane) for the gathered facets within so many of their clearances of the
-  /// god-object; of the plane, only Facet and Normal are set.
+  /// Calls visit(plane, hasRim) for the gathered facets within so many of their clearances of the
+  /// god-object; of the plane, only Facet and Normal are set. `hasRim`: whether an edge of the
+  /// facet is no other's.
   template <class Visitor>
   void VisitNear(double clearances, const Visitor& visit)
   {
@@ -127,7 +128,7 @@ public:
         ActivePlane plane;
         plane.Facet = { this->Index, this->Triangles[i] };
         plane.Normal = this->ToSurface.VectorToScene(this->FacetNormal(i));
-        visit(plane);
+        visit(plane, this->HasOpenEdge(this->Triangles[i]));
       }
     }
   }
@@ -235,6 +236,11 @@ private:
   bool IsOpenEdge(std::int32_t triangle, int edge) const
   {
     return this->Touched->AdjacentTriangles()[triangle][edge] == BoundaryEdge;
+  }
+  bool HasOpenEdge(std::int32_t triangle) const
+  {
+    return this->IsOpenEdge(triangle, 0) || this->IsOpenEdge(triangle, 1) ||
+      this->IsOpenEdge(triangle, 2);
   }
   /// A gathered triangle that a motion touches from the side that can be touched, or -1.
   std::int32_t FindTouched(const Vector& to);
