@@ -253,23 +253,33 @@ bool GodObject::Implementation::Release(const Vector& goal)
   tries.Most = MostPlanesAtRest;
   int near = 0;
   bool isRimNear = false;
+  bool isGapNear = false;
   for (std::size_t i = this->First; i < this->Last; ++i)
   {
     this->Sets[i].VisitNear(NearBy,
-      [&](const ActivePlane& plane, bool hasRim)
+      [&](const ActivePlane& plane)
       {
         ++near;
-        isRimNear = isRimNear || hasRim;
         tries.Add(plane);
       });
+    const WorkingSet::Rims rims = this->Sets[i].FindRimsNear(NearBy);
+    isGapNear = isGapNear || rims == WorkingSet::Rims::Apart ||
+      (isRimNear && rims != WorkingSet::Rims::None);
+    isRimNear = isRimNear || rims != WorkingSet::Rims::None;
   }
   this->ReleasesLeft = 0;
-  if (near == tries.Held && !isRimNear)
+  if (!isRepeated && attemptAll())
   {
-    this->Refused.Rounds = RoundsAtRest; // there is nothing around but what holds it
+    return true;
+  }
+  // Where there is nothing around but what holds it there is no way around either; and where cracks
+  // meet there is a hole that facets close by reaching over it, wider than a gap is told to be.
+  if (isGapNear || (near == tries.Held && !isRimNear))
+  {
+    this->Refused.Rounds = RoundsAtRest;
     return false;
   }
-  return (!isRepeated && attemptAll()) || attemptAround();
+  return attemptAround();
 }
 
 /// Whether a motion that is clear does not squeeze through a gap that facets close by reaching over

@@ -1,6 +1,7 @@
 #include "haptics/Contact/NarrowGap.h"
 
 #include "haptics/Math/NearestOnTriangle.h"
+#include "haptics/Surface/Facet.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,11 +19,7 @@ constexpr double Beside = 1.0 / 16.0;
 
 double SquaredDistanceToSegment(const Vector& x, const Vector& from, const Vector& to)
 {
-  const Vector edge = to - from;
-  const double squared = SquaredLength(edge);
-  const double along =
-    squared > 0.0 ? std::clamp(glm::dot(x - from, edge) / squared, 0.0, 1.0) : 0.0;
-  return SquaredLength(x - (from + along * edge));
+  return SquaredLength(x - NearestOnSegment(from, to, x));
 }
 
 Vector NearestOn(const std::array<Vector, 3>& corners, const Vector& x)

@@ -537,6 +537,48 @@ bool WorkingSet::IsClearNear(const Vector& target, ActivePlane& inTheWay)
   return i < 0;
 }
 
+WorkingSet::Rims WorkingSet::FindRimsNear(double clearances)
+{
+  std::array<std::int32_t, 8> found;
+  std::size_t count = 0;
+  for (std::int32_t i = 0; i < this->Count; ++i)
+  {
+    const std::int32_t triangle = this->Triangles[i];
+    const double reach = clearances * this->Clearance[i];
+    if (!this->HasOpenEdge(triangle) || !this->MeetsBox(i, this->Position, reach))
+    {
+      continue;
+    }
+    const auto [a, b, c] = this->CornersOf(triangle);
+    const Vector* const corners[4] = { &a, &b, &c, &a };
+    bool isNear = false;
+    for (int k = 0; k < 3; ++k)
+    {
+      const Vector nearest = NearestOnSegment(*corners[k], *corners[k + 1], this->Position);
+      isNear = isNear ||
+        (this->IsOpenEdge(triangle, k) && SquaredLength(nearest - this->Position) <= reach * reach);
+    }
+    if (!isNear)
+    {
+      continue;
+    }
+    const auto& ends = this->Touched->Triangles()[triangle];
+    const bool isJoined = std::all_of(found.begin(), found.begin() + count,
+      [&](std::int32_t other)
+      {
+        const auto& others = this->Touched->Triangles()[other];
+        return std::find_first_of(ends.begin(), ends.end(), others.begin(), others.end()) !=
+          ends.end();
+      });
+    if (!isJoined || count == found.size())
+    {
+      return Rims::Apart;
+    }
+    found[count++] = triangle;
+  }
+  return count > 0 ? Rims::Joined : Rims::None;
+}
+
 /// Whether the way to `to` meets a gathered triangle.
 bool WorkingSet::MeetsAny(const Vector& to)
 {

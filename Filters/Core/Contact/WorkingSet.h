@@ -128,10 +128,19 @@ public:
         ActivePlane plane;
         plane.Facet = { this->Index, this->Triangles[i] };
         plane.Normal = this->ToSurface.VectorToScene(this->FacetNormal(i));
-        visit(plane, this->HasOpenEdge(this->Triangles[i]));
+        visit(plane);
       }
     }
   }
+
+  /// What there is of edges that no other facet shares within so many clearances of the god-object.
+  enum class Rims
+  {
+    None,
+    Joined, ///< of one facet, or of several with corners in common
+    Apart   ///< of facets that have none: there may be a gap between them
+  };
+  Rims FindRimsNear(double clearances);
 
   /// Moves to the target of the last IsClear, which must have been true.
   void Move();

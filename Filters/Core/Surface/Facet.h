@@ -100,6 +100,16 @@ enum class Coverage
   Inside ///< on the facet, and not near any of its edges
 };
 
+/// The nearest point to x on a segment.
+inline Vector NearestOnSegment(const Vector& from, const Vector& to, const Vector& x)
+{
+  const Vector edge = to - from;
+  const double squared = SquaredLength(edge);
+  const double along =
+    squared > 0.0 ? std::clamp(glm::dot(x - from, edge) / squared, 0.0, 1.0) : 0.0;
+  return from + along * edge;
+}
+
 /// The nearest point to x on the triangle's edges, be they as close to one line as they may.
 inline Vector NearestOnEdges(const Vector& a, const Vector& b, const Vector& c, const Vector& x)
 {
@@ -107,11 +117,7 @@ inline Vector NearestOnEdges(const Vector& a, const Vector& b, const Vector& c, 
   double least = HUGE_VAL;
   const auto take = [&](const Vector& from, const Vector& to)
   {
-    const Vector edge = to - from;
-    const double squared = SquaredLength(edge);
-    const double along =
-      squared > 0.0 ? std::clamp(glm::dot(x - from, edge) / squared, 0.0, 1.0) : 0.0;
-    const Vector point = from + along * edge;
+    const Vector point = NearestOnSegment(from, to, x);
     const double distance = SquaredLength(x - point);
     if (distance < least)
     {
