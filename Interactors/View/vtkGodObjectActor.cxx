@@ -239,7 +239,7 @@ void vtkGodObjectActor::ArrangeForce(double radius)
   double direction[3] = { this->Force[0], this->Force[1], this->Force[2] };
   const double force = vtkMath::Normalize(direction);
   const double length = ReferenceArrowLength * radius * force / this->ReferenceForce;
-  const bool shown = this->ShowForce && length > 0.0;
+  const bool shown = this->ShowHand && this->ShowForce && length > 0.0;
   this->ForceShaftPart->SetVisibility(shown);
   this->ForceTipPart->SetVisibility(shown);
   if (!shown)
@@ -268,11 +268,12 @@ void vtkGodObjectActor::Arrange(vtkViewport* viewport)
   const double radius = this->RadiusInWorld(viewport);
   const double up[3] = { 0.0, 1.0, 0.0 };
   Stretch(this->GodObjectPart, this->GodObject, up, radius, radius);
+  this->GodObjectPart->SetVisibility(this->ShowHand);
 
   double spring[3];
   vtkMath::Subtract(this->GodObject, this->HapticInterfacePoint, spring);
   const double length = vtkMath::Normalize(spring);
-  const bool apart = this->ShowHapticInterfacePoint && this->Touching && length > 0.0;
+  const bool apart = this->ShowHand && this->ShowHapticInterfacePoint && this->Touching && length > 0.0;
   this->HapticInterfacePointPart->SetVisibility(apart);
   this->SpringPart->SetVisibility(apart);
   if (apart)
@@ -292,7 +293,7 @@ void vtkGodObjectActor::ArrangeContact(vtkViewport* viewport, double radius)
 {
   double normal[3] = { this->Force[0], this->Force[1], this->Force[2] };
   const double force = vtkMath::Normalize(normal);
-  const bool shown = this->ShowContact && this->Touching && force > 0.0;
+  const bool shown = this->ShowHand && this->ShowContact && this->Touching && force > 0.0;
   this->ContactPart->SetVisibility(shown);
   this->GodObjectPart->SetProperty(shown ? this->TouchingLook : this->GodObjectLook);
   if (!shown)
@@ -449,6 +450,7 @@ void vtkGodObjectActor::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Size [" << (this->SizeInWorld ? "world unit" : "view heights")
      << "]: " << this->Size << "\n";
   os << indent << "ReferenceForce [N]: " << this->ReferenceForce << "\n";
+  os << indent << "ShowHand: " << (this->ShowHand ? "On" : "Off") << "\n";
   os << indent << "ShowHapticInterfacePoint: " << (this->ShowHapticInterfacePoint ? "On" : "Off")
      << "\n";
   os << indent << "ShowForce: " << (this->ShowForce ? "On" : "Off") << "\n";

@@ -126,6 +126,16 @@ public:
   ///@}
 
   ///@{
+  /**
+   * Whether the hand is shown at all: god-object, HIP, spring, force, contact and active triangles.
+   * Off where there is none, what it left (trail and landmarks) stays. Default on.
+   */
+  vtkSetMacro(ShowHand, bool);
+  vtkGetMacro(ShowHand, bool);
+  vtkBooleanMacro(ShowHand, bool);
+  ///@}
+
+  ///@{
   /** Whether each part is shown. All on by default but the trail. */
   vtkSetMacro(ShowHapticInterfacePoint, bool);
   vtkGetMacro(ShowHapticInterfacePoint, bool);
@@ -270,6 +280,7 @@ private:
   double Size = 0.012;
   bool SizeInWorld = false;
   double ReferenceForce = 3.3;
+  bool ShowHand = true;
   bool ShowHapticInterfacePoint = true;
   bool ShowForce = true;
   bool ShowContact = true;

@@ -100,6 +100,7 @@ vtkSmartPointer<vtkBillboardTextActor3D> MakeText()
   text->ForceOpaqueOn();
   vtkTextProperty* const look = text->GetTextProperty();
   look->SetFontFamilyToArial();
+  look->BoldOn();
   look->SetColor(0.96, 0.97, 0.98);
   look->SetBackgroundColor(0.09, 0.11, 0.15);
   look->SetBackgroundOpacity(1.0);
@@ -304,7 +305,7 @@ void vtkGodObjectActor::ArrangeMarks(vtkViewport* viewport)
   Lift(this->LandmarksPart, viewport, TrailLift);
   Lift(this->TrianglesPart, viewport, TrianglesLift);
   this->TrianglesPart->SetVisibility(
-    this->ShowActiveTriangles && this->Touching && this->Triangles->GetNumberOfPolys() > 0);
+    this->ShowHand && this->ShowActiveTriangles && this->Touching && this->Triangles->GetNumberOfPolys() > 0);
   this->LandmarksPart->SetVisibility(this->Landmarks->GetNumberOfPoints() > 0);
   this->LandmarksPart->GetProperty()->SetPointSize(static_cast<float>(pixels));
   this->ArrangeTexts(viewport, pixels);

@@ -26,6 +26,8 @@ vtkHapticView::vtkHapticView()
 {
   this->Callback->SetClientData(this);
   this->Callback->SetCallback(vtkHapticView::OnSceneState);
+  this->LandmarksCallback->SetClientData(this);
+  this->LandmarksCallback->SetCallback(vtkHapticView::OnLandmarks);
 }
 
 vtkHapticView::~vtkHapticView()
@@ -42,12 +44,14 @@ void vtkHapticView::SetScene(vtkHapticScene* scene)
   if (this->Scene)
   {
     this->Scene->RemoveObserver(this->Callback);
+    this->Scene->GetLandmarks()->RemoveObserver(this->LandmarksCallback);
   }
   this->Scene = scene;
   this->LandmarksShown = 0;
   if (scene)
   {
     scene->AddObserver(vtkHapticScene::StateEvent, this->Callback);
+    scene->GetLandmarks()->AddObserver(vtkCommand::ModifiedEvent, this->LandmarksCallback);
     this->Show();
   }
   this->Modified();
@@ -63,6 +67,22 @@ void vtkHapticView::OnSceneState(vtkObject*, unsigned long, void* clientData, vo
   auto* self = static_cast<vtkHapticView*>(clientData);
   self->ShowTrail();
   self->Show();
+}
+
+/// Without a hand there is no new state, and they can change all the same.
+void vtkHapticView::OnLandmarks(vtkObject*, unsigned long, void* clientData, void*)
+{
+  static_cast<vtkHapticView*>(clientData)->ShowLandmarks();
+}
+
+void vtkHapticView::ShowLandmarks()
+{
+  vtkHapticLandmarks* const landmarks = this->Scene->GetLandmarks();
+  if (this->Actor && this->LandmarksShown != landmarks->GetMTime())
+  {
+    this->LandmarksShown = landmarks->GetMTime();
+    this->Actor->SetLandmarks(landmarks->GetOutput());
+  }
 }
 
 void vtkHapticView::ShowTrail()
@@ -97,12 +117,7 @@ void vtkHapticView::Show()
       this->Actor->SetActiveTriangles(
         corners.empty() ? nullptr : corners.front().data(), static_cast<int>(corners.size() / 3));
     }
-    vtkHapticLandmarks* landmarks = this->Scene->GetLandmarks();
-    if (this->LandmarksShown != landmarks->GetMTime())
-    {
-      this->LandmarksShown = landmarks->GetMTime();
-      this->Actor->SetLandmarks(landmarks->GetOutput());
-    }
+    this->ShowLandmarks();
   }
 }
 

@@ -55,6 +55,8 @@ private:
 
   static void OnSceneState(
     vtkObject* caller, unsigned long event, void* clientData, void* callData);
+  static void OnLandmarks(vtkObject* caller, unsigned long event, void* clientData, void* callData);
+  void ShowLandmarks();
   void ShowTrail();
   void Show();
   std::string DescribeContact();
@@ -62,6 +64,7 @@ private:
 
   vtkSmartPointer<vtkHapticScene> Scene;
   vtkNew<vtkCallbackCommand> Callback;
+  vtkNew<vtkCallbackCommand> LandmarksCallback;
   vtkSmartPointer<vtkGodObjectActor> Actor;
   vtkSmartPointer<vtkHapticOverlay> Overlay;
   vtkMTimeType LandmarksShown = 0;

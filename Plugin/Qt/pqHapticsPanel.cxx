@@ -124,6 +124,12 @@ void pqHapticsPanel::connectSettings()
     [this](double value) { this->Manager->set("Largest Haptic Force", "MaximumForce", value); });
   this->connect(form.side, QOverload<int>::of(&QComboBox::activated), this,
     [this](int side) { this->Manager->set("Haptic Side", "Side", side); });
+  this->connect(form.landmarkDistance, QOverload<int>::of(&QComboBox::activated), this,
+    [this](int distance)
+    {
+      this->Manager->set("Landmark Distance", "LandmarkDistance", distance);
+      this->Manager->redraw();
+    });
   const auto show = [this](QAbstractButton* box, const char* property)
   {
     this->connect(box, &QAbstractButton::clicked, this,
@@ -271,6 +277,8 @@ void pqHapticsPanel::showSettings()
     form.maximumForce->setValue(vtkSMPropertyHelper(scene, "MaximumForce").GetAsDouble());
     form.clutch->setChecked(vtkSMPropertyHelper(scene, "Clutched").GetAsInt() != 0);
     form.side->setCurrentIndex(vtkSMPropertyHelper(scene, "Side").GetAsInt());
+    form.landmarkDistance->setCurrentIndex(
+      vtkSMPropertyHelper(scene, "LandmarkDistance").GetAsInt());
     form.showForce->setChecked(vtkSMPropertyHelper(scene, "ShowForce").GetAsInt() != 0);
     form.showReadout->setChecked(vtkSMPropertyHelper(scene, "ShowReadout").GetAsInt() != 0);
     form.showTrail->setChecked(vtkSMPropertyHelper(scene, "ShowTrail").GetAsInt() != 0);
@@ -283,6 +291,7 @@ void pqHapticsPanel::showSettings()
     form.stiffness->setValue(500.0);
     form.maximumForce->setValue(3.3);
     form.side->setCurrentIndex(vtkGodObjectFilter::AUTOMATIC_SIDE);
+    form.landmarkDistance->setCurrentIndex(vtkHapticLandmarks::STRAIGHT);
     form.showForce->setChecked(true);
     form.showReadout->setChecked(false);
     form.showTrail->setChecked(false);

@@ -487,7 +487,7 @@ bool vtkPVHapticScene::Update()
   return self.MustRender;
 }
 
-/// Hand, force and what they do are in the picture as long as a hand is there.
+/// Hand and force are in the picture as long as a hand is there, and what it left stays.
 void vtkPVHapticScene::ShowHand()
 {
   Internals& self = *this->Internal;
@@ -507,11 +507,10 @@ void vtkPVHapticScene::ShowHand()
   const bool isShown = isThere || self.Wanted;
   if (isShown != (overlay->GetVisibility() != 0))
   {
-    self.Picture->GetGodObjectActor()->SetVisibility(isThere);
     overlay->SetVisibility(isShown);
     self.MustRender = true;
   }
-  self.Picture->GetGodObjectActor()->SetVisibility(isThere);
+  self.Picture->GetGodObjectActor()->SetShowHand(isThere);
 }
 
 void vtkPVHapticScene::EngageWhenReady()

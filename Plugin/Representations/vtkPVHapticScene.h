@@ -190,6 +190,11 @@ public:
   void ClearLandmarks();
   int GetNumberOfLandmarks();
   ///@}
+  /**
+   * The distance to the one before that is written beside each, a vtkHapticLandmarks::DistanceType.
+   * Default straight.
+   */
+  void SetLandmarkDistance(int distance);
 
   ///@{
   /** What goes on, in words, and what is wrong; empty where nothing is, or no longer. */

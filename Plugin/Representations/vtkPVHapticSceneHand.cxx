@@ -174,6 +174,11 @@ void vtkPVHapticScene::ClearLandmarks()
   this->Internal->Scene->GetLandmarks()->RemoveAll();
 }
 
+void vtkPVHapticScene::SetLandmarkDistance(int distance)
+{
+  this->Internal->Scene->GetLandmarks()->SetDistance(distance);
+}
+
 int vtkPVHapticScene::GetNumberOfLandmarks()
 {
   return this->Internal->Scene->GetLandmarks()->GetNumberOfLandmarks();

@@ -267,6 +267,7 @@ self.GetOutput().ShallowCopy(sphere.GetOutput())"""
         landmarks.UpdatePipeline()
         trace.UpdatePipeline()
         self.assertEqual(landmarks.GetDataInformation().GetNumberOfPoints(), 2)
+        self.assertIn("DistanceToPrevious", landmarks.PointData.keys())
         self.assertEqual(trace.GetDataInformation().GetNumberOfPoints(), 1800)
         self.assertIn("Force", trace.PointData.keys())
         self.hand.proxy.InvokeCommand("RemoveLastLandmark")
@@ -274,31 +275,60 @@ self.GetOutput().ShallowCopy(sphere.GetOutput())"""
         self.hand.proxy.InvokeCommand("ClearLandmarks")
         self.assertEqual(self.hand.NumberOfLandmarks, 0)
 
+    def test_landmarks_have_numbers_and_distances_and_outlive_the_hand(self):
+        self.touch(self.make("Sphere", ThetaResolution=48, PhiResolution=48))
+        for _ in range(2):
+            self.hand.step(1500)
+            self.hand.drop_landmark()
+        straight = self.hand.vtk.GetLandmarks().GetStraightDistance(0, 1)
+        along = self.hand.vtk.GetLandmarks().GetGeodesicDistance(0, 1)
+        self.assertGreater(along, straight)
+
+        def texts():
+            marks = self.hand.landmarks().GetPointData().GetAbstractArray("Text")
+            return [marks.GetValue(i) for i in range(2)]
+
+        self.assertEqual(texts(), ["1", f"2: {straight:.5g}"])
+        self.hand.set(ShowForce=0)
+        self.hand.LandmarkDistance = "Along Surface"
+        self.assertEqual(texts(), ["1", f"2: {along:.5g}"])
+        second = self.hand.landmarks().GetPoint(1)
+        self.view.CameraPosition = [4.0 * coordinate for coordinate in second]
+        self.hand.set(Device="none")  # the hand is gone, and what it marked is seen
+        self.hand.update()
+        marked = self.picture()
+        self.hand.LandmarkDistance = "None"
+        self.assertEqual(texts(), ["1", "2"])
+        self.hand.update()
+        numbered = self.picture()
+        self.assertTrue((marked != numbered).any(), "the distance was drawn")
+        self.hand.proxy.InvokeCommand("ClearLandmarks")
+        self.hand.update()
+        self.assertTrue((numbered != self.picture()).any(), "balls and numbers were drawn")
+
     def test_in_free_space_no_landmark_is_dropped(self):
         self.touch(self.make("Sphere"))
         self.hand.step(10)
         with self.assertRaisesRegex(haptics.HapticsError, "nothing is touched"):
             self.hand.drop_landmark()
 
-    def test_the_hand_is_seen(self):
+    def picture(self):
         from vtkmodules.util.numpy_support import vtk_to_numpy
         from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 
+        simple.Render(self.view)
+        grab = vtkWindowToImageFilter()
+        grab.SetInput(self.view.GetClientSideObject().GetRenderWindow())
+        grab.ReadFrontBufferOff()
+        grab.Update()
+        return np.array(vtk_to_numpy(grab.GetOutput().GetPointData().GetScalars()), dtype=int)
+
+    def test_the_hand_is_seen(self):
         self.touch(self.make("Sphere", ThetaResolution=48, PhiResolution=48))
-
-        def picture():
-            simple.Render(self.view)
-            window = self.view.GetClientSideObject().GetRenderWindow()
-            grab = vtkWindowToImageFilter()
-            grab.SetInput(window)
-            grab.ReadFrontBufferOff()
-            grab.Update()
-            return np.array(vtk_to_numpy(grab.GetOutput().GetPointData().GetScalars()), dtype=int)
-
         self.hand.set(ShowForce=0)
-        before = picture()
+        before = self.picture()
         self.hand.step(1500)
-        changed = (abs(picture() - before).max(axis=1) > 40).sum()
+        changed = (abs(self.picture() - before).max(axis=1) > 40).sum()
         self.assertGreater(changed, 25)  # god-object, arrow: a per cent of the picture
         self.assertLess(changed, 3000)
 
