@@ -273,7 +273,8 @@ void vtkGodObjectActor::Arrange(vtkViewport* viewport)
   double spring[3];
   vtkMath::Subtract(this->GodObject, this->HapticInterfacePoint, spring);
   const double length = vtkMath::Normalize(spring);
-  const bool apart = this->ShowHand && this->ShowHapticInterfacePoint && this->Touching && length > 0.0;
+  const bool apart =
+    this->ShowHand && this->ShowHapticInterfacePoint && this->Touching && length > 0.0;
   this->HapticInterfacePointPart->SetVisibility(apart);
   this->SpringPart->SetVisibility(apart);
   if (apart)

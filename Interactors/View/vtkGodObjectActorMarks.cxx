@@ -304,8 +304,8 @@ void vtkGodObjectActor::ArrangeMarks(vtkViewport* viewport)
   Lift(this->TrailPart, viewport, TrailLift);
   Lift(this->LandmarksPart, viewport, TrailLift);
   Lift(this->TrianglesPart, viewport, TrianglesLift);
-  this->TrianglesPart->SetVisibility(
-    this->ShowHand && this->ShowActiveTriangles && this->Touching && this->Triangles->GetNumberOfPolys() > 0);
+  this->TrianglesPart->SetVisibility(this->ShowHand && this->ShowActiveTriangles &&
+    this->Touching && this->Triangles->GetNumberOfPolys() > 0);
   this->LandmarksPart->SetVisibility(this->Landmarks->GetNumberOfPoints() > 0);
   this->LandmarksPart->GetProperty()->SetPointSize(static_cast<float>(pixels));
   this->ArrangeTexts(viewport, pixels);

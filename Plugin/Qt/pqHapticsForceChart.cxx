@@ -20,9 +20,9 @@
 
 namespace
 {
-constexpr qint64 DrawInterval = 100;    // [ms]
-constexpr double UnlimitedForce = 3.3;  // [N], the axis where nothing limits the force
-constexpr double Headroom = 1.05;       // of the axis above the largest force
+constexpr qint64 DrawInterval = 100;   // [ms]
+constexpr double UnlimitedForce = 3.3; // [N], the axis where nothing limits the force
+constexpr double Headroom = 1.05;      // of the axis above the largest force
 }
 
 pqHapticsForceChart::pqHapticsForceChart(QWidget* parent)
@@ -57,8 +57,7 @@ pqHapticsForceChart::pqHapticsForceChart(QWidget* parent)
   this->View->GetScene()->AddItem(this->Chart);
 
   pqHapticsManager* manager = pqHapticsManager::instance();
-  this->connect(
-    manager, &pqHapticsManager::sceneChanged, this, &pqHapticsForceChart::followScene);
+  this->connect(manager, &pqHapticsManager::sceneChanged, this, &pqHapticsForceChart::followScene);
   this->connect(manager, &pqHapticsManager::updated, this, &pqHapticsForceChart::draw);
   this->followScene();
 }
@@ -85,8 +84,8 @@ void pqHapticsForceChart::followScene()
   this->Scene = scene;
   if (scene)
   {
-    this->Observer = scene->AddObserver(
-      vtkHapticScene::StateEvent, this, &pqHapticsForceChart::takeTicks);
+    this->Observer =
+      scene->AddObserver(vtkHapticScene::StateEvent, this, &pqHapticsForceChart::takeTicks);
   }
   this->draw();
 }

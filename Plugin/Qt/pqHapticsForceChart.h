@@ -4,8 +4,8 @@
  *
  * Takes every tick that the scene gives out, keeps the largest force of each hundredth of a second,
  * and draws ten times a second while it can be seen. The force axis goes up to the largest force
- * that the servo allows, so that the curve does not jump. A new run begins a new curve; after it the
- * last one stays. GUI thread.
+ * that the servo allows, so that the curve does not jump. A new run begins a new curve; after it
+ * the last one stays. GUI thread.
  *
  * @sa pqHapticsActions
  */

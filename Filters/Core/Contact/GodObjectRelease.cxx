@@ -263,8 +263,8 @@ bool GodObject::Implementation::Release(const Vector& goal)
         tries.Add(plane);
       });
     const WorkingSet::Rims rims = this->Sets[i].FindRimsNear(NearBy);
-    isGapNear = isGapNear || rims == WorkingSet::Rims::Apart ||
-      (isRimNear && rims != WorkingSet::Rims::None);
+    isGapNear =
+      isGapNear || rims == WorkingSet::Rims::Apart || (isRimNear && rims != WorkingSet::Rims::None);
     isRimNear = isRimNear || rims != WorkingSet::Rims::None;
   }
   this->ReleasesLeft = 0;
