@@ -73,8 +73,12 @@ vtkSMProxy* MakeLines(vtkPolyData* record, const char* name)
     vtkSMPropertyHelper(shown, "LineWidth").Set(LineWidth);
     if (record->GetPointData()->HasArray("Force"))
     {
-      vtkSMPVRepresentationProxy::SetScalarColoring(shown, "ForceMagnitude", vtkDataObject::POINT);
-      vtkSMPVRepresentationProxy::RescaleTransferFunctionToDataRange(shown);
+      // The members: ParaView 6 has no static functions of these names.
+      if (auto* const colored = vtkSMPVRepresentationProxy::SafeDownCast(shown))
+      {
+        colored->SetScalarColoring("ForceMagnitude", vtkDataObject::POINT);
+        colored->RescaleTransferFunctionToDataRange();
+      }
     }
     Render(shown);
   }

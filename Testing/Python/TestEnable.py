@@ -19,8 +19,15 @@ from vtkmodules.vtkRenderingCore import (
 from vtkhaptics.picture import surface_actor
 
 
+class NamingRenderer(vtkRenderer):
+    """One that knows its actors by name, as PyVista's does; from VTK 9.4 on vtkRenderer has an
+    attribute of this name, which cannot be set."""
+
+    actors = None
+
+
 def plot(*props):
-    renderer, window = vtkRenderer(), vtkRenderWindow()
+    renderer, window = NamingRenderer(), vtkRenderWindow()
     for prop in props:
         renderer.AddViewProp(prop)
     window.SetSize(100, 100)

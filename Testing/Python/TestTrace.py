@@ -312,8 +312,9 @@ class Package(unittest.TestCase):
     def test_help_shows_where_to_begin(self):
         text = pydoc.plain(pydoc.render_doc(vtkhaptics))
         self.assertIn("Where to begin", text[:500])
+        joined = "".join(text.replace("|", "").split())  # Python 3.14 breaks lines in signatures
         for name in ("trace(surface: Any, path: Any", "enable(plotter", "touch(*surfaces", "class vtkHapticScene"):
-            self.assertTrue(name in text, name)
+            self.assertTrue(name.replace(" ", "") in joined, name)
 
     def test_names(self):
         for name in vtkhaptics.__all__:

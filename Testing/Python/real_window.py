@@ -98,7 +98,7 @@ class Desktop:
 
     def start(self, command, title="VTK Haptics", seconds=60.0):
         """Starts a program and waits for its window, which `title` finds."""
-        log = os.path.join(os.environ.get("HAPTICS_TEST_OUTPUT", "."), "real_window.log")
+        log = os.path.join(os.environ.get("HAPTICS_TEST_OUTPUT", "."), f"real_window-{os.getpid()}.log")
         program = Program(self, command, log)
         self.processes.append(program.process)
         program.find_window(title, seconds)

@@ -52,7 +52,8 @@ class Touch:
         """Takes in what the plot shows now, and only that: each picture calls it."""
         shown = [prop for prop in self._renderer.GetViewProps() if _can_be_touched(prop)]
         for prop in shown:
-            if prop not in self._surfaces and prop.GetVisibility() and prop.GetPickable():
+            if (prop not in self._surfaces and prop.GetVisibility() and prop.GetPickable()
+                    and not self._is_of_widget(prop)):
                 self.add(prop)
         present = set(shown)
         for prop in [prop for prop in self._surfaces if prop not in present]:
@@ -64,6 +65,21 @@ class Touch:
                 stand_in.SetVisibility(prop.GetVisibility())
                 stand_in.SetPickable(prop.GetPickable())
                 _clip_alike(stand_in, prop)
+
+    def _is_of_widget(self, prop):
+        """Whether an actor is a part of one of PyVista's widgets: it looks as the widget says."""
+        if not prop.IsA("vtkActor"):
+            return False
+        owner = getattr(self._plotter, "widgets", self._plotter)  # from PyVista 0.48 on
+        looks = [
+            getattr(widget, name)()
+            for attribute, widgets in vars(owner).items()
+            if attribute.endswith("_widgets") and isinstance(widgets, list)
+            for widget in widgets
+            for name in dir(widget)
+            if name.startswith("Get") and name.endswith("Property")
+        ]
+        return any(prop.GetProperty() is look for look in looks)
 
     def _take_interrupts(self, interactor):
         """Lets Ctrl-C end the event loop, whoever starts it, and after that the program."""
@@ -107,7 +123,8 @@ def enable(plotter, device=None, stiffness=500.0, overlay=True):
 
     `plotter` is a pyvista.Plotter, or a vtkRenderWindowInteractor with a window. The surfaces are
     what its visible, pickable actors and assemblies show, of volume meshes the outside; what comes,
-    goes or is replaced later is followed at each picture. Names that the plot gives them are those of
+    goes or is replaced later is followed at each picture. PyVista's
+    widgets are left alone. Names that the plot gives them are those of
     messages, read-out and traces. Of several subplots the active one is touched; over the others the
     mouse's hand waits. `stiffness` in N/m. Returns a Touch, whose `scene` is the vtkHapticScene. Raises
     TypeError for anything that is no plotter, and ValueError where there is nothing to touch, the
@@ -163,8 +180,9 @@ def _view_of(plotter):
 def _name_of(prop, renderer):
     """What a plot calls an actor: the name of PyVista's ``add_mesh(name=...)``, or VTK's from 9.3
     on; empty where nobody has given it one."""
-    actors = getattr(renderer, "actors", None) or {}
-    for name, actor in actors.items():
+    actors = getattr(renderer, "actors", None)
+    # From VTK 9.4 on a renderer of VTK's own has a vtkActorCollection of that name.
+    for name, actor in actors.items() if hasattr(actors, "items") else ():
         # PyVista makes one of the address where it is given none.
         if actor is prop and "Addr=" not in str(name):
             return str(name)

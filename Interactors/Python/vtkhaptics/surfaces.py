@@ -94,6 +94,33 @@ def _has_ply_strips(path, extension):
         return b"element tristrips" in file.read(4096).split(b"end_header")[0]
 
 
+PLY_BYTES = {"char": 1, "uchar": 1, "int8": 1, "uint8": 1, "short": 2, "ushort": 2, "int16": 2,
+             "uint16": 2, "int": 4, "uint": 4, "int32": 4, "uint32": 4, "float": 4, "float32": 4,
+             "double": 8, "float64": 8}
+
+
+def _is_cut_ply(path):
+    """Whether a PLY file ends before all that its header announces: VTK 9.6 then makes up the rest. Of
+    lists at least their lengths are counted."""
+    with open(path, "rb") as file:
+        elements, is_text = [], False  # of each element: how many, and the bytes of one
+        for line in iter(file.readline, b""):
+            words = line.decode("ascii", "replace").split()
+            if words[:1] == ["end_header"]:
+                break
+            if words[:1] == ["format"]:
+                is_text = words[1:2] == ["ascii"]
+            elif words[:1] == ["element"] and words[-1].isdigit():
+                elements.append([int(words[-1]), 0])
+            elif words[:1] == ["property"] and elements:
+                kind = words[2] if words[1:2] == ["list"] and len(words) > 2 else words[1] if len(words) > 1 else ""
+                elements[-1][1] += PLY_BYTES.get(kind, 1)
+        if is_text:
+            return sum(1 for line in file if line.strip()) < sum(count for count, _ in elements)
+        rest = os.path.getsize(path) - file.tell()
+        return rest < sum(count * size for count, size in elements)
+
+
 def _has_appended_data(path, extension):
     if not extension.startswith(".vt") or extension == ".vtk":
         return False
@@ -317,6 +344,10 @@ def _read_unpacked(path, unpacked, progress, contour):
         )
     if not os.path.isdir(path):
         _refuse_enormous(unpacked)
+    if extension == ".ply" and _is_cut_ply(unpacked):
+        raise SurfaceError(
+            f"{path}: ends before all that its header announces. Check that the file is whole."
+        )
     # VTK 9.6 refuses a binary STL with bytes after its last triangle; some programs write them.
     as_read = _stl_as_read if extension == ".stl" else contextlib.nullcontext
     with as_read(unpacked) as whole:
