@@ -37,6 +37,7 @@ bool IsRotation(const double m[3][3])
 
 bool AreSame(const Matrix4& a, const Matrix4& b)
 {
+  // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): what is not a number is the same again
   return std::memcmp(a.data(), b.data(), sizeof(a)) == 0;
 }
 

@@ -189,8 +189,8 @@ void GeometryFollower::Prepare(bool wasUnseen, const PullSettings& settings, Pul
     std::make_shared<SurfacePreparation>(geometry, options), wasUnseen, settings, report);
 }
 
-void GeometryFollower::StartBuild(std::shared_ptr<SurfacePreparation> preparation, bool wasUnseen,
-  const PullSettings& settings, PullReport& report)
+void GeometryFollower::StartBuild(const std::shared_ptr<SurfacePreparation>& preparation,
+  bool wasUnseen, const PullSettings& settings, PullReport& report)
 {
   const std::optional<Matrix4> baked = this->Pose.MatrixToBake(this->InForce != nullptr, report);
   if (!baked)

@@ -108,7 +108,7 @@ private:
   Version Look(const PullSettings& settings);
   vtkPolyData* UpdateGeometry(PullReport& report);
   void Prepare(bool wasUnseen, const PullSettings& settings, PullReport& report);
-  void StartBuild(std::shared_ptr<SurfacePreparation> preparation, bool wasUnseen,
+  void StartBuild(const std::shared_ptr<SurfacePreparation>& preparation, bool wasUnseen,
     const PullSettings& settings, PullReport& report);
   void DeformWhatIsInForce(const PullSettings& settings);
   void TakeBuild(const PullSettings& settings, PullReport& report);

@@ -64,7 +64,7 @@ void RunRecorder::Finish()
 std::string RunRecorder::TakeFailure()
 {
   const bool isHere = this->Channel && this->Channel->IsHere();
-  const std::string failure = isHere ? this->Channel->GetFailure() : this->Failure;
+  std::string failure = isHere ? this->Channel->GetFailure() : this->Failure;
   if (failure.empty() || std::exchange(this->IsFailureTaken, true))
   {
     return {};

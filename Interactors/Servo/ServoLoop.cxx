@@ -61,7 +61,7 @@ void ServoLoop::Stop()
   if (this->IsParents())
   {
     GiveUp(this->Thread);
-    this->Guardian.release(); // it has a thread too
+    (void)this->Guardian.release(); // it has a thread too
     this->Cycle.End(ServoState::Stopped);
     return;
   }

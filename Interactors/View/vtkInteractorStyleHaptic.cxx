@@ -114,8 +114,8 @@ void vtkInteractorStyleHaptic::SetMaximumFrameRate(double rate)
     this->MaximumFrameRate = rate;
     if (this->TimerId)
     {
-      this->StopTimer();
-      this->StartTimer();
+      this->StopUpdateTimer();
+      this->StartUpdateTimer();
     }
     this->Modified();
   }
@@ -129,7 +129,7 @@ void vtkInteractorStyleHaptic::SetInteractor(vtkRenderWindowInteractor* interact
   }
   if (this->Interactor)
   {
-    this->StopTimer();
+    this->StopUpdateTimer();
     this->Interactor->RemoveObserver(this->InteractorCallback);
   }
   this->Superclass::SetInteractor(interactor);
@@ -142,7 +142,7 @@ void vtkInteractorStyleHaptic::SetInteractor(vtkRenderWindowInteractor* interact
     {
       interactor->AddObserver(event, this->InteractorCallback, before);
     }
-    this->StartTimer();
+    this->StartUpdateTimer();
   }
 }
 
@@ -178,7 +178,7 @@ void vtkInteractorStyleHaptic::OnInteractorEvent(
       self->SleepingTimerId = 0;
       break;
     default:
-      self->StartTimer();
+      self->StartUpdateTimer();
   }
 }
 
@@ -192,7 +192,7 @@ void vtkInteractorStyleHaptic::Exit()
   this->Interactor->TerminateApp();
 }
 
-void vtkInteractorStyleHaptic::StartTimer()
+void vtkInteractorStyleHaptic::StartUpdateTimer()
 {
   // On some systems timers belong to the window, which is there once the interactor is
   // initialised; the interactor's Modified and Render events bring us back here then.
@@ -215,7 +215,7 @@ void vtkInteractorStyleHaptic::StartTimer()
   }
 }
 
-void vtkInteractorStyleHaptic::StopTimer()
+void vtkInteractorStyleHaptic::StopUpdateTimer()
 {
   for (int* timer : { &this->TimerId, &this->SleepingTimerId })
   {

@@ -141,8 +141,8 @@ private:
   void Render(vtkRenderer* renderer);
   template <typename Function>
   void DrawLater(Function handle);
-  void StartTimer();
-  void StopTimer();
+  void StartUpdateTimer();
+  void StopUpdateTimer();
   vtkRenderer* FindRenderer();
   void Watch(vtkRenderer* renderer);
 

@@ -20,8 +20,11 @@
 #include <thread>
 #include <vector>
 
+#include <csignal>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace fs = std::filesystem;
 
@@ -109,6 +112,46 @@ TEST(RecordingFaults, ADeletedFileIsReported)
   const std::string name = NewName();
   ExpectReport(
     name, [&] { fs::remove(name); }, "deleted or moved away");
+}
+
+TEST(RecordingFaults, AProgramThatIsKilledLeavesWhatItHadRecorded)
+{
+  const std::string name = NewName();
+  int channel[2];
+  ASSERT_EQ(pipe(channel), 0);
+  const pid_t child = fork();
+  if (child == 0)
+  {
+    LedHand hand;
+    vtkHapticServo* servo = hand.Scene->GetServo();
+    servo->SetRecordingFileName(name);
+    hand.Device->SetPosition(0.0, 0.0, 0.01);
+    if (!hand.EngagePatiently())
+    {
+      _exit(1);
+    }
+    vtkTypeInt64 recorded = 0;
+    while ((recorded = servo->GetNumberOfRecordedTicks()) < 300)
+    {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    if (write(channel[1], &recorded, sizeof(recorded)) == sizeof(recorded))
+    {
+      raise(SIGKILL);
+    }
+    _exit(2);
+  }
+  close(channel[1]);
+  vtkTypeInt64 recorded = 0;
+  EXPECT_EQ(read(channel[0], &recorded, sizeof(recorded)), ssize_t(sizeof(recorded)));
+  close(channel[0]);
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFSIGNALED(status)) << WEXITSTATUS(status);
+  vtkNew<vtkRecordedHapticDevice> device;
+  device->SetFileName(name);
+  ASSERT_TRUE(device->Open()) << device->GetErrorMessage();
+  EXPECT_GE(device->GetNumberOfTicks(), recorded);
 }
 
 TEST(RecordingFaults, AReplacedFileIsReportedAndTheOtherOneIsLeft)
