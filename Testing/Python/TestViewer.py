@@ -396,7 +396,10 @@ def test_bad_input(folder):
     empty = os.path.join(folder, "empty.stl")
     with open(empty, "w", encoding="ascii"):
         pass
+    fifo = os.path.join(folder, "fifo.stl")
+    os.mkfifo(fifo)  # which nobody will ever write to
     for status, told, arguments in (
+        (2, "no regular file", (fifo,)),
         (2, "no polygons", (lines,)),
         (2, "could not be read", (empty,)),
         (2, "no such file", (os.path.join(folder, "missing.stl"),)),

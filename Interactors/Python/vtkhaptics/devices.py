@@ -9,6 +9,7 @@ from vtkmodules.vtkCommonCore import vtkStringArray
 
 from . import vtkHapticsDevices
 from .errors import HapticsError
+from .output import whole_file
 
 _SECTION, _KEY = "viewer", "device"
 
@@ -73,7 +74,7 @@ def remember_device(name):
     config[_SECTION] = {_KEY: name}
     try:
         os.makedirs(os.path.dirname(_file()), exist_ok=True)
-        with open(_file(), "w", encoding="utf-8") as file:
+        with whole_file(_file(), text=True) as file:
             config.write(file)
     except OSError:
         return

@@ -319,6 +319,11 @@ def read_surface(path, progress=None, contour=None):
         raise SurfaceError(f"{path}: there is no such file. Check the path.")
     if not os.access(path, os.R_OK):
         raise SurfaceError(f"{path}: may not be read. Check the file's permissions.")
+    if not os.path.isfile(path) and not os.path.isdir(path):
+        raise SurfaceError(
+            f"{path}: is no regular file but a FIFO or a device, which could be waited for without end. "
+            "Write what comes from it to a file, and give that."
+        )
     with _unpacked(path) as unpacked:
         return _read_unpacked(path, unpacked, progress, contour)
 
