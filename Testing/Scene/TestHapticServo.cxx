@@ -219,7 +219,7 @@ TEST_F(HapticServo, StopsStepsAtAClosedDevice)
 TEST_F(HapticServo, LimitsStiffnessAndForceToTheDevices)
 {
   this->Servo->SetStiffness(5000.0);
-  EXPECT_NEAR(this->Servo->GetEffectiveStiffness(), 0.9 * 700.0, 1e-9) << "2b/T, a tenth below";
+  EXPECT_NEAR(this->Servo->GetEffectiveStiffness(), 0.9 * 1000.0, 1e-9) << "2b/T, a tenth below";
   this->Device->SetDamping(0.0); // unknown
   EXPECT_EQ(this->Servo->Step(0), 0);
   EXPECT_EQ(this->Servo->GetEffectiveStiffness(), 1000.0);
