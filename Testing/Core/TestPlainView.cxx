@@ -3,6 +3,7 @@
 #include "AnalyticSurfaces.h"
 #include "ExactQueries.h"
 #include "haptics/Contact/GodObject.h"
+#include "haptics/Surface/SurfaceDeformer.h"
 #include "haptics/Surface/SurfaceMotion.h"
 
 #include <gtest/gtest.h>
@@ -700,5 +701,198 @@ TEST(PlainView, ACornerOfSpikesDoesNotHoldAHandAtRest)
     }
     EXPECT_LT(god.Current().Penetration, 0.98 * before) << hold.Seed;
     EXPECT_EQ(god.Current().Status, UpdateStatus::Touching);
+  }
+}
+
+// GodObject.h's theorem, with its number: in plain view the god-object is at the HIP, to within 8
+// clearances, in that update or in the next ones at rest.
+TEST(PlainView, IsReachedToWithinEightClearances)
+{
+  int views = 0;
+  for (const double scale : { 1.0, 1e-6, 1e6 })
+  {
+    const TriangleMesh meshes[] = { Star(2, 1.0, 0.7, 3), Soup(60, 0.8, 5), Wedge(28.0),
+      Box(0.5, 0.5, 0.1), Joined(Square(0.9), Moved(Square(0.9), { 0.05, 0.02, 1e-9 })) };
+    for (const TriangleMesh& mesh : meshes)
+    {
+      for (const Side side : { Side::Front, Side::Both })
+      {
+        const auto surface = MakeSurface(Scaled(mesh, scale), side);
+        GodObject god({ surface });
+        std::mt19937 random(1);
+        std::uniform_real_distribution<double> anywhere(-1.1, 1.1);
+        god.Place({ 3.0 * scale, 0, 0 });
+        for (int i = 0; i < 150; ++i)
+        {
+          const double x = anywhere(random) * scale;
+          const double y = anywhere(random) * scale;
+          const Vec3 hip = { x, y, anywhere(random) * scale };
+          for (int tick = 0; tick < 3; ++tick)
+          {
+            god.Update(hip);
+          }
+          if (IsInPlainView(god, hip))
+          {
+            ++views;
+            EXPECT_LE(god.Current().Penetration, 8.0 * surface->Clearance())
+              << "scale " << scale << ", side " << static_cast<int>(side) << ", HIP " << i;
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(views, 1000);
+}
+
+//  -> o          flush parts, in one and in several surfaces, at scales from 1e-6 to 1e6: a step
+//  ______|____   lower, overlapping, three that meet in a T, and slots
+TEST(PlainView, FlushPartsAndSlotsAreTheSameAtEveryScale)
+{
+  for (const double scale : { 1e-6, 1e-3, 1e3, 1e6 })
+  {
+    const auto scaled = [scale](std::vector<TriangleMesh> parts)
+    {
+      for (TriangleMesh& part : parts)
+      {
+        part = Scaled(part, scale);
+      }
+      return parts;
+    };
+    const TriangleMesh left = BoxFrom({ -0.5, -0.5, -0.1 }, { 0, 0.5, 0.1 });
+    const std::vector<std::vector<TriangleMesh>> tables{
+      { left, BoxFrom({ 0, -0.5, -0.1 }, { 0.5, 0.5, 0.1 }) },
+      { left, BoxFrom({ 0, -0.5, -0.1 }, { 0.5, 0.5, 0.1 - 1e-9 }) },
+      { left, BoxFrom({ 0, -0.5, -0.1 }, { 0.5, 0.5, 0.1 - 1e-6 }) },
+      { BoxFrom({ -0.5, -0.5, -0.1 }, { 0.1, 0.5, 0.1 }),
+        BoxFrom({ -0.1, -0.5, -0.1 }, { 0.5, 0.5, 0.1 }) },
+      { left, BoxFrom({ 0, -0.5, -0.1 }, { 0.5, 0.01, 0.1 }),
+        BoxFrom({ 0, 0.01, -0.1 }, { 0.5, 0.5, 0.1 }) },
+      { BoxFrom({ -0.5, -0.5, -0.1 }, { -1e-3, 0.5, 0.1 }),
+        BoxFrom({ 1e-3, -0.5, -0.1 }, { 0.5, 0.5, 0.1 }) },
+    };
+    for (const auto& table : tables)
+    {
+      for (const Side side : { Side::Front, Side::Both })
+      {
+        for (const auto& surfaces : { AsOne(scaled(table), side), AsSeveral(scaled(table), side) })
+        {
+          // In steps, along the seam's own line, and in one.
+          for (const int steps : { 1, 37 })
+          {
+            for (const double y : { 0.01, 0.0, 0.2 })
+            {
+              GodObject god(surfaces);
+              god.Place({ -0.3 * scale, y * scale, 0.2 * scale });
+              god.Update({ -0.3 * scale, y * scale, 0.05 * scale });
+              for (int i = 1; i <= steps; ++i)
+              {
+                god.Update({ (-0.3 + 0.6 * i / steps) * scale, y * scale, 0.05 * scale });
+              }
+              const Contact& contact = god.Update({ 0.3 * scale, y * scale, 0.05 * scale });
+              EXPECT_LT(Length(contact.Displacement - Vec3{ 0, 0, 0.05 * scale }), 1.1e-6 * scale)
+                << scale << ", " << steps << " steps";
+            }
+          }
+        }
+      }
+    }
+  }
+}
+
+//    |o|      a notch that narrows to a point, cut in a sheet from its rim: open where it is wider
+//   __\/__    than ten clearances
+TEST(PlainView, ANotchInASheetIsOpen)
+{
+  for (const double scale : { 1.0, 1e-6, 1e6 })
+  {
+    for (const double half : { 0.5, 0.01, 1e-5 }) // of its width at the rim
+    {
+      TriangleMesh sheet;
+      sheet.Points = { { 0, 0, 0 }, { -half, 1, 0 }, { -1, 1, 0 }, { -1, -1, 0 }, { 1, -1, 0 },
+        { 1, 1, 0 }, { half, 1, 0 } };
+      sheet.Triangles = { { 0, 1, 2 }, { 0, 2, 3 }, { 0, 3, 4 }, { 0, 4, 5 }, { 0, 5, 6 } };
+      const auto surface = MakeSurface(Scaled(sheet, scale), Side::Both);
+      for (const double y : { 0.9, 0.1, 1e-3, 20.0 * surface->Clearance() / (half * scale) })
+      {
+        GodObject god({ surface });
+        for (const double side : { 1.0, -1.0, 1.0 })
+        {
+          EXPECT_EQ(god.Update({ 0, std::min(y, 0.9) * scale, 0.05 * side * scale }).Status,
+            UpdateStatus::Free)
+            << half << ", " << y << ", scale " << scale;
+        }
+      }
+      GodObject god({ surface });
+      god.Place({ 0, -0.1 * scale, 0.05 * scale });
+      EXPECT_EQ(god.Update({ 0, -0.1 * scale, -0.05 * scale }).Status, UpdateStatus::Touching);
+    }
+  }
+}
+
+//   -> o         slivers of all widths among good triangles of one plane are not felt
+TEST(PlainView, SliversAmongGoodTrianglesOfAPlaneAreNotFelt)
+{
+  for (const double width : { 1e-3, 1e-6, 1e-9, 1e-12, 1e-14 })
+  {
+    TriangleMesh plate = Square(0.02, 4);
+    const std::vector<Triangle> good = plate.Triangles;
+    plate.Triangles.clear();
+    for (const auto& [a, b, c] : good)
+    {
+      const Vec3& p = plate.Points[a];
+      const Vec3& q = plate.Points[b];
+      const Vec3 foot = p + 0.37 * (q - p);
+      const auto inner = static_cast<std::int32_t>(plate.Points.size());
+      plate.Points.push_back(foot + width * (plate.Points[c] - foot));
+      plate.Triangles.insert(
+        plate.Triangles.end(), { { a, b, inner }, { b, c, inner }, { c, a, inner } });
+    }
+    for (const Side side : { Side::Front, Side::Both })
+    {
+      for (const double y : { 0.001, 0.0, 0.01 })
+      {
+        EXPECT_LT(LargestDrag({ MakeSurface(plate, side) }, y), 1e-9) << width << ", " << y;
+      }
+    }
+  }
+}
+
+//   -> o     ^   a flush seam of two parts that are deformed together, and lets go at its end
+//  _____|_____
+TEST(PlainView, AFlushSeamThatDeformsIsNotFelt)
+{
+  for (const Side side : { Side::Front, Side::Both })
+  {
+    const TriangleMesh mesh = Joined(BoxFrom({ -0.02, -0.02, -0.02 }, { 0, 0.02, 0 }),
+      BoxFrom({ 0, -0.02, -0.02 }, { 0.02, 0.02, 0 }));
+    SurfaceDeformer deformer(MakeSurface(mesh, side));
+    auto god = std::make_unique<GodObject>(std::vector<TouchedSurface>{ deformer.Latest() });
+    god->Place({ -0.014, 0.001, 0.005 });
+    double height = 0.0;
+    for (int i = 0; i <= 560; ++i)
+    {
+      if (i % 20 == 0)
+      {
+        height += 0.0002;
+        std::vector<Vec3> points = mesh.Points;
+        for (Vec3& p : points)
+        {
+          p[2] += height;
+        }
+        std::string error;
+        const auto next = deformer.Deform(points, 0.02, error);
+        ASSERT_TRUE(next) << error;
+        auto other = std::make_unique<GodObject>(std::vector<TouchedSurface>{ next });
+        other->Continue(*god);
+        god = std::move(other);
+      }
+      god->Advance(0.001);
+      const Contact& contact = god->Update({ -0.014 + 5e-5 * i, 0.001, -0.0002 });
+      EXPECT_EQ(contact.Status, UpdateStatus::Touching) << i;
+      EXPECT_LT(std::hypot(contact.Displacement[0], contact.Displacement[1]), 1e-7) << i;
+    }
+    const double away = height + 0.01;
+    god->Advance(0.001);
+    EXPECT_EQ(god->Update({ 0.014, 0.001, away }).Status, UpdateStatus::Free);
   }
 }
