@@ -42,9 +42,10 @@ TrialCount& TrialCount::operator+=(const TrialCount& other)
   return *this;
 }
 
-GodObjectFollower::GodObjectFollower(std::vector<TouchedSurface> surfaces)
+GodObjectFollower::GodObjectFollower(std::vector<TouchedSurface> surfaces, int pieceLimit)
   : Point(std::move(surfaces))
 {
+  this->Point.SetPieceLimit(pieceLimit);
 }
 
 Vec3 GodObjectFollower::Place(const Vec3& position)

@@ -83,6 +83,7 @@ GodObject::Implementation::Implementation(std::vector<TouchedSurface> surfaces)
   }
   this->Last = this->Felt;
   this->Along.resize(this->Felt);
+  this->LocalStarts.resize(this->Felt);
 }
 
 void GodObject::Implementation::Place(const Vector& position)
@@ -95,6 +96,7 @@ void GodObject::Implementation::Place(const Vector& position)
   this->Active.Clear();
   this->Cone.Reset();
   this->LastHip = position;
+  this->HipBefore = position;
   this->Refused = {};
   for (Mover& mover : this->Movers)
   {
@@ -119,14 +121,28 @@ void GodObject::Implementation::Update(const Vector& hip)
   this->IsOverloaded = false;
   this->Way[0] = ToVec3(this->Position);
   this->WaySize = 1;
-  this->PassesLeft = this->PassesAllowed;
+  this->PieceStart = 0;
   this->ReleasesLeft = LargestNumberOfReleases;
   this->GoalMoved = glm::length(hip - this->LastHip);
   this->LastHip = hip;
+  const Vector from = this->HipBefore;
+  this->HipBefore = hip;
   if (this->IsSplit && !this->Join(hip))
   {
     return;
   }
+  if (this->PiecesAllowed > 1 && from != hip)
+  {
+    this->Follow(from, hip);
+    return;
+  }
+  this->Approach(hip);
+}
+
+/// To where the surfaces let a HIP have it, in one piece.
+void GodObject::Implementation::Approach(const Vector& hip)
+{
+  this->PassesLeft = this->PassesAllowed;
   const auto before = this->Active.SupportFacets();
   if (this->HasProperties)
   {
@@ -137,7 +153,7 @@ void GodObject::Implementation::Update(const Vector& hip)
   {
     return; // it is held by the facet that is right below, with the HIP straight behind it
   }
-  if (this->Position != hip)
+  if (this->Position != hip && !this->IsChangeFound)
   {
     this->LookAhead(hip, before);
   }
@@ -154,7 +170,7 @@ bool GodObject::Implementation::Walk(const Vector& goal)
     {
       return true;
     }
-    if (this->IsOverloaded)
+    if (this->IsOverloaded || this->IsChangeFound)
     {
       return false;
     }
@@ -230,6 +246,15 @@ bool GodObject::Implementation::Pass(const Vector& hip)
     {
       this->IsOverloaded = true;
       return false;
+    }
+    if (this->LooksForChange)
+    {
+      this->LooksForChange = false;
+      this->IsChangeFound = this->ChangesOnWay(goal, hip, hit);
+      if (this->IsChangeFound)
+      {
+        return false;
+      }
     }
     if (!hit)
     {
@@ -423,6 +448,11 @@ void GodObject::SetPassLimit(int passes)
   this->Internal->PassesAllowed = std::clamp(passes, 1, LargestNumberOfPasses);
 }
 
+void GodObject::SetPieceLimit(int pieces)
+{
+  this->Internal->PiecesAllowed = std::clamp(pieces, 1, LargestNumberOfPieces);
+}
+
 void GodObject::Place(const Vec3& hip) noexcept
 {
   const Vector position = ToVector(hip) - this->Internal->Origin;
@@ -517,6 +547,7 @@ void GodObject::Jump(const Vec3& hip) noexcept
   {
     this->Place(hip);
   }
+  god.HipBefore = ToVector(hip) - god.Origin; // nobody has moved it there
 }
 
 const Contact& GodObject::Hold() noexcept

@@ -146,6 +146,17 @@ public:
   void SetPassLimit(int passes);
   static constexpr int LargestNumberOfPasses = 16;
 
+  /// In how many pieces an update may follow the HIP's straight way since the update before: 1, the
+  /// default, to 16; clamped. On rough ground where a god-object comes to rest depends on the
+  /// way, not only on its end: with 1 that hangs on how often the HIP is sampled, with n as little
+  /// as if it were sampled up to n times as often. One piece is made in free space, at rest, while
+  /// the same facets hold, and on smooth ground, where facets turn so little that the god-object
+  /// goes no farther by it than the HIP does. All guarantees hold, the premise of K <= 2b/T
+  /// included: an update whose pieces would end farther from the HIP than it began is made in one.
+  /// GUI thread, before the servo has this object. Measured by HapticsWayBenchmark.
+  void SetPieceLimit(int pieces);
+  static constexpr int LargestNumberOfPieces = 16;
+
   /// Puts the god-object at `hip` as in free space. Servo thread. [world]
   void Place(const Vec3& hip) noexcept;
   /// The HIP has been put elsewhere, by another workspace. One that touches stays where it is, on

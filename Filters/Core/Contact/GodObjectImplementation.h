@@ -19,8 +19,10 @@ constexpr int LargestNumberOfReleases = 4;
 
 /// Each cast makes at most one motion, so does each release, and one more goes to what is in plain
 /// view.
-constexpr int LargestWay =
+constexpr int LargestWayOfPiece =
   GodObject::LargestNumberOfPasses * LargestNumberOfCasts + LargestNumberOfReleases + 2;
+/// Where half of it has been used the rest is one piece.
+constexpr int LargestWay = 2 * LargestWayOfPiece;
 
 /// What a god-object does: GodObject.cxx moves it to the HIP, GodObjectMotion.cxx with surfaces
 /// that move, GodObjectRelease.cxx lets go of planes that hold where no facet is,
@@ -49,6 +51,8 @@ public:
   Vector Origin{ 0 };           ///< of the scene frame, in the world
   Vector Position{ 0 };         ///< scene frame
   int PassesAllowed = LargestNumberOfPasses;
+  int PiecesAllowed = 1;
+  Vector HipBefore{ 0 }; ///< where the HIP's way to the next update begins
   bool IsPlaced = false;
   bool IsOverloaded = false;
   /// Surfaces close in on the god-object and leave no place that all of them allow: each keeps a
@@ -78,6 +82,9 @@ private:
   void AddMaterials(const ActivePlane& plane, double push, MaterialBlend& blend);
   void AddMaterial(
     const FacetId& facet, double push, const Vector& normal, MaterialBlend& blend) const;
+  void Approach(const Vector& hip);
+  void Follow(const Vector& from, const Vector& hip);
+  bool ChangesOnWay(const Vector& goal, const Vector& hip, const FacetHit& hit) const;
   bool Walk(const Vector& goal);
   bool Pass(const Vector& hip);
   bool Release(const Vector& goal);
@@ -114,7 +121,11 @@ private:
   double SharingUnit = 0.0;          ///< largest clearance of those that are felt
   std::vector<FacetAlong> Along;     ///< of each that is felt, where a plane holds
   std::vector<std::int32_t> Scratch; ///< for questions to another god-object's surfaces
-  int PassesLeft = 0;                ///< of this update
+  int PassesLeft = 0;                ///< of this piece of an update
+  int PieceStart = 0;                ///< the corner of the way where it began
+  bool LooksForChange = false;       ///< the next cast is to tell whether the piece is to be cut
+  bool IsChangeFound = false;        ///< it is: nothing has moved
+  std::vector<Vector> LocalStarts;   ///< of the sets, before the first piece
   int ReleasesLeft = 0;
   Vector LastHip{ 0 };
   double GoalMoved = HUGE_VAL; ///< since the update before

@@ -35,7 +35,8 @@ void GodObject::Implementation::WalkWithFriction(const Vector& hip)
     const bool isHeld = this->Active.SupportSize() > 0;
     // On the same facets the cone stands as it stood: there is no more to slide.
     const bool isDone = arrived && this->Active.SupportFacets() == before;
-    if (this->IsOverloaded || (isHeld && (isDone || slide + 1 == LargestNumberOfSlides)))
+    if (this->IsOverloaded || this->IsChangeFound ||
+      (isHeld && (isDone || slide + 1 == LargestNumberOfSlides)))
     {
       return;
     }

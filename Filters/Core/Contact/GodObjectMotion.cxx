@@ -65,6 +65,7 @@ bool GodObject::Implementation::Continue(const Implementation& previous)
 {
   this->TakeFromHand(previous);
   this->Place(previous.Position + (previous.Origin - this->Origin));
+  this->HipBefore = previous.HipBefore + (previous.Origin - this->Origin);
   this->Budget.Triangles = LargestNumberOfTriangles;
   WorkBudget looks = this->Budget; // at sides; what is left of the other is for the motion
   const TriangleList scratch{ this->Scratch.data(),

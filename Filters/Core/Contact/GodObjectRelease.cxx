@@ -306,7 +306,7 @@ bool GodObject::Implementation::MayBeReleased(const Vector& pull)
   {
     least = std::max(least, DepthBehind * this->Active.Support(i).Clearance);
   }
-  const double moved = SquaredLength(this->Position - ToVector(this->Way[0]));
+  const double moved = SquaredLength(this->Position - ToVector(this->Way[this->PieceStart]));
   const double distance = glm::length(pull);
   if (moved > least * least || this->GoalMoved > SlowShare * distance)
   {

@@ -83,6 +83,12 @@ void WorkingSet::Place(const Vector& position)
   this->Covered = Region::Nothing;
 }
 
+void WorkingSet::Return(const Vector& local)
+{
+  this->Position = local;
+  this->Covered = Region::Nothing;
+}
+
 void WorkingSet::Restart(const Vector& position)
 {
   this->EmptyRadius = 0.0;
@@ -689,6 +695,43 @@ bool WorkingSet::Covers(const ActivePlane& plane, const Vector& position,
   return coverage >= Coverage::Own ||
     (coverage == Coverage::Reach &&
       !planes.PassesOver(this->ToSurface.PointToScene(nearest), plane.Facet));
+}
+
+bool WorkingSet::FindNextNormal(
+  const ActivePlane& plane, const Vector& from, const Vector& to, Vector& normal) const
+{
+  const std::int32_t triangle = plane.Facet.Triangle;
+  const auto [a, b, c] = this->CornersOf(triangle);
+  const Vector* const corners[4] = { &a, &b, &c, &a };
+  const Vector up = glm::cross(b - a, c - a);
+  const Vector x = this->ToSurface.PointToLocal(from);
+  const Vector way = this->ToSurface.PointToLocal(to) - x;
+  double first = HUGE_VAL;
+  std::int32_t next = BoundaryEdge;
+  for (int k = 0; k < 3; ++k)
+  {
+    const Vector outwards = glm::cross(*corners[k + 1] - *corners[k], up);
+    const double speed = glm::dot(outwards, way);
+    const double left = -glm::dot(outwards, x - *corners[k]);
+    if (speed > 0.0 && left < first * speed)
+    {
+      first = left / speed;
+      next = this->Touched->AdjacentTriangles()[triangle][k];
+    }
+  }
+  if (next < 0)
+  {
+    return false;
+  }
+  const auto [d, e, f] = this->CornersOf(next);
+  const Vector n = glm::cross(e - d, f - d);
+  const double length = glm::length(n);
+  if (!(length > 0.0))
+  {
+    return false;
+  }
+  normal = this->ToSurface.VectorToScene((plane.IsFlipped ? -1.0 : 1.0) / length * n);
+  return true;
 }
 
 bool WorkingSet::StandsInWay(const ActivePlane& plane, const Vector& goal, bool isNew) const

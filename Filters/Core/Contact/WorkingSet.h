@@ -80,6 +80,8 @@ public:
   /// The same, and forgets what it has learned of the surface: what follows is the same to the last
   /// digit, whatever was touched before.
   void Restart(const Vector& position);
+  /// Goes back to a local point where it has been, from where nothing has moved since.
+  void Return(const Vector& local);
   /// Stands where another set of the same surface has its god-object.
   void Continue(const WorkingSet& previous);
   /// Stands where another set had its god-object, of a surface that has changed all at once. False
@@ -170,6 +172,10 @@ public:
   /// `isInside` is set to whether it is not near an edge of the facet.
   bool Covers(const ActivePlane& plane, const Vector& position, const ActivePlanes& planes,
     bool& isInside) const;
+  /// The unit normal (scene frame) of the facet behind the edge over which a way leaves a plane's
+  /// facet. False where there is none, or none that is known.
+  bool FindNextNormal(
+    const ActivePlane& plane, const Vector& from, const Vector& to, Vector& normal) const;
   /// Whether the god-object stands beyond the facet, which reaches there over a gap, and what comes
   /// along `other` passes over the facet.
   bool IsPassedOver(
