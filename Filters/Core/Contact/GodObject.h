@@ -125,9 +125,10 @@ struct Contact
 /// list. Constraints name the one plane that holds; of planes that coincide, that of the first
 /// surface.
 ///
-/// **Bounded**: at most 16 passes of 12 casts, and 131,072 triangles looked up in all; where one
-/// place needs more, the god-object is held there (UpdateStatus::Overloaded). As much again for
-/// surfaces that move, which are taken on in up to 32 parts of a tick.
+/// **Bounded**: in each piece (one, but for SetPieceLimit()) at most 16 passes of 12 casts, and
+/// 131,072 triangles looked up in all; where one place needs more, the god-object is held there
+/// (UpdateStatus::Overloaded). As much again for surfaces that move, which are taken on in up to 32
+/// parts of a tick.
 class VTKHAPTICSCORE_EXPORT GodObject
 {
 public:
