@@ -103,6 +103,13 @@ vtkMTimeType vtkGodObjectFilter::GetMTime()
   return std::max(this->Superclass::GetMTime(), this->Internals->Properties->GetMTime());
 }
 
+bool vtkGodObjectFilter::HasBadArray() const
+{
+  const vtkInternals& internals = *this->Internals;
+  return !internals.Said.empty() || !internals.SaidOfSides.empty() ||
+    !internals.SaidOfSideValues.empty();
+}
+
 std::shared_ptr<const haptics::SurfaceProperties> vtkGodObjectFilter::GetSurfaceProperties() const
 {
   return this->Internals->Made;

@@ -174,6 +174,11 @@ public:
 
 #ifndef __VTK_WRAP__
   /**
+   * @brief Whether an array that was chosen for properties or sides was no good at the last
+   * Update().
+   */
+  bool HasBadArray() const;
+  /**
    * @brief The properties as of the last Update(); null where the surface is plain.
    */
   std::shared_ptr<const haptics::SurfaceProperties> GetSurfaceProperties() const;

@@ -98,6 +98,12 @@ public:
     return this->Touched() &&
       (this->Geometry.IsRefused() || this->Place.GetState() == PoseFollower::State::Refused);
   }
+  /// Whether what was refused at a Pull() is refused still: geometry, matrix or an array.
+  bool IsFaulty() const
+  {
+    return this->Geometry.IsRefused() || this->Place.GetState() == PoseFollower::State::Refused ||
+      this->Filter()->HasBadArray();
+  }
   /// Adds the world's bounds of what is touched, or while that is null of what is being built.
   void AddBounds(vtkBoundingBox& box) const;
   /// See GeometryFollower::Attributes().

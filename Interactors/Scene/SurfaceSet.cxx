@@ -165,6 +165,12 @@ bool SurfaceSet::Pull(const PullSettings& settings, std::vector<std::string>& er
   return changed;
 }
 
+bool SurfaceSet::IsFaulty() const
+{
+  return std::any_of(this->Surfaces.begin(), this->Surfaces.end(),
+    [](const auto& surface) { return surface->IsFaulty(); });
+}
+
 bool SurfaceSet::HaveMoved() const
 {
   return std::any_of(this->Surfaces.begin(), this->Surfaces.end(),

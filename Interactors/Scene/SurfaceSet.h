@@ -72,6 +72,8 @@ public:
   /// Takes in what has changed, after PullAssemblies(). True where a new god-object has to be
   /// published. Each new error is appended to `errors`, naming its surface.
   bool Pull(const PullSettings& settings, std::vector<std::string>& errors);
+  /// Whether something that was refused at a Pull() is refused still.
+  bool IsFaulty() const;
 
   /// Whether a surface that can be touched was in another place at the last Pull().
   bool HaveMoved() const;

@@ -362,6 +362,13 @@ bool vtkHapticScene::PullSurfaces()
     this->IsMessageOfSurface = true;
     this->InvokeEvent(vtkHapticScene::SurfaceErrorEvent);
   }
+  const bool isFaulty = surfaces.IsFaulty();
+  if (this->IsMessageOfSurface && errors.empty() && this->HasFaultySurface && !isFaulty)
+  {
+    this->ErrorMessage.clear(); // the fault is mended, or its surface gone
+    this->IsMessageOfSurface = false;
+  }
+  this->HasFaultySurface = isFaulty;
   if (lost >= 0)
   {
     this->Internal->Events.Add(vtkHapticScene::LetGoEvent, lost);

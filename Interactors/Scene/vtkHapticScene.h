@@ -408,6 +408,7 @@ private:
   int LandmarkButton = 0;
   std::string ErrorMessage;
   bool IsMessageOfSurface = false;
+  bool HasFaultySurface = false; ///< as of the last look at them
 
   double HapticInterfacePoint[3] = { 0.0, 0.0, 0.0 };
   double GodObject[3] = { 0.0, 0.0, 0.0 };
