@@ -121,8 +121,7 @@ TEST(Remedies, OfTheSimulatedDevice)
   const auto timed = MakePath({ 0.1, 0.2 });
   timed->GetPointData()->AddArray(times);
   device->SetPath(timed);
-  ExpectRemedy(
-    device, "It must have one for each", open, [&] { times->InsertNextValue(1.0); });
+  ExpectRemedy(device, "It must have one for each", open, [&] { times->InsertNextValue(1.0); });
   device->SetSpeed(NotANumber);
   device->SetPath(MakePath({ 0.1, 0.2 }));
   device->SetMass(NotANumber);
@@ -221,7 +220,8 @@ TEST(Remedies, OfSettings)
     [&] { properties->SetRange(vtkHapticProperties::STATIC_FRICTION, 0.0, value); });
   expect(properties, "they go from 0 to", 99.0,
     [&] { properties->SetConstant(static_cast<int>(value), 0.5); });
-  expect(properties, "a depth above 0 m", -1.0, [&] { properties->SetForceProfileToButton(500.0, value, 0.5); });
+  expect(properties, "a depth above 0 m", -1.0,
+    [&] { properties->SetForceProfileToButton(500.0, value, 0.5); });
   vtkNew<vtkHapticOverlay> overlay;
   expect(overlay, "finite and >= 0", -1.0, [&] { overlay->SetForce(value); });
   expect(overlay, "Give a finite force > 0", 0.0, [&] { overlay->SetMaximumForce(value); });
@@ -256,7 +256,8 @@ TEST(Remedies, OfGripsAndLandmarks)
   vtkHapticLandmarks* const marks = hand.Scene->GetLandmarks();
   const auto drop = [&] { marks->Drop(hand.Scene->GetProbe()); };
   ExpectRemedy(marks, "Touch a surface first", drop, press);
-  ExpectRemedy(grip, "Add it as a vtkActor", [&] { grip->Take(); },
+  ExpectRemedy(
+    grip, "Add it as a vtkActor", [&] { grip->Take(); },
     [&]
     {
       hand.MoveTo(0.01);
@@ -268,7 +269,8 @@ TEST(Remedies, OfGripsAndLandmarks)
   drop();
   const int last = marks->GetNumberOfLandmarks() - 1;
   int from = 0;
-  ExpectRemedy(marks, "Drop them anew", [&] { marks->GetGeodesicDistance(from, last); },
+  ExpectRemedy(
+    marks, "Drop them anew", [&] { marks->GetGeodesicDistance(from, last); },
     [&]
     {
       drop();
@@ -279,11 +281,13 @@ TEST(Remedies, OfGripsAndLandmarks)
     marks, "counted from 0", [&] { marks->GetLabel(0), marks->SetLabel(number, "a"); },
     [&] { number = 0; });
   hand.MoveTo(0.01);
-  ExpectRemedy(grip, "Touch a surface first", [&] { grip->Take(); }, press);
+  ExpectRemedy(
+    grip, "Touch a surface first", [&] { grip->Take(); }, press);
   grip->LetGo();
   actor->VisibilityOff();
   const int shown = hand.Scene->GetSurfaceId(0);
-  ExpectRemedy(grip, "Show it first", [&] { grip->TakeSurface(shown); },
+  ExpectRemedy(
+    grip, "Show it first", [&] { grip->TakeSurface(shown); },
     [&]
     {
       actor->VisibilityOn();
@@ -305,11 +309,14 @@ TEST(Remedies, OfTheScene)
   scene->AddSurface(MakeTable(0.0));
   vtkHapticWorkspace* const workspace = scene->GetWorkspace();
   const double bounds[6] = { -0.1, 0.1, -0.1, 0.1, 0.0, 0.0 };
-  ExpectRemedy(workspace, "Call the scene's SetDevice() first",
-    [&] { workspace->Fit(bounds, nullptr); }, [&] { scene->SetDevice(device); });
-  ExpectRemedy(scene, "no geometry to add as a surface. Give a vtkPolyData",
-    [&] { scene->AddSurface(table); }, [&] { table = MakeTable(-0.05); });
-  ExpectRemedy(workspace, "no matrix to take", [&] { workspace->SetTransform(matrix); },
+  ExpectRemedy(
+    workspace, "Call the scene's SetDevice() first", [&] { workspace->Fit(bounds, nullptr); },
+    [&] { scene->SetDevice(device); });
+  ExpectRemedy(
+    scene, "no geometry to add as a surface. Give a vtkPolyData", [&] { scene->AddSurface(table); },
+    [&] { table = MakeTable(-0.05); });
+  ExpectRemedy(
+    workspace, "no matrix to take", [&] { workspace->SetTransform(matrix); },
     [&] { matrix = identity; });
   vtkNew<vtkVolume> volume;
   vtkNew<vtkPolyDataMapper> mapper;
@@ -317,7 +324,8 @@ TEST(Remedies, OfTheScene)
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
   vtkProp3D* prop = volume;
-  ExpectRemedy(scene, "Give a vtkActor or a vtkAssembly", [&] { scene->AddSurface(prop); },
+  ExpectRemedy(
+    scene, "Give a vtkActor or a vtkAssembly", [&] { scene->AddSurface(prop); },
     [&] { prop = actor; });
 }
 
@@ -343,8 +351,7 @@ TEST(Remedies, OfTheTraceRecorder)
     recorder->SetRecording(false);
     hand.MoveTo(0.01);
   };
-  ExpectRemedy(
-    recorder, "Raise MaximumTicks", record, [&] { recorder->SetMaximumTicks(100); });
+  ExpectRemedy(recorder, "Raise MaximumTicks", record, [&] { recorder->SetMaximumTicks(100); });
   recorder->AddSurfaceArray("heat");
   ExpectRemedy(recorder, "Check the name, and see what a probe lists", record,
     [&]
@@ -369,7 +376,8 @@ TEST(Remedies, OfFilters)
   auto broken = MakeTable(0.0);
   broken->GetPoints()->SetPoint(2, NotANumber, 0.0, 0.0);
   filter->SetInputData(broken);
-  ExpectRemedy(filter, "Remove the cells that", update, [&] { filter->SetInputData(MakeTable(0.0)); });
+  ExpectRemedy(
+    filter, "Remove the cells that", update, [&] { filter->SetInputData(MakeTable(0.0)); });
 
   vtkNew<vtkGodObjectTrace> trace;
   trace->SetInputData(1, MakeTable(0.0));
@@ -380,14 +388,19 @@ TEST(Remedies, OfFilters)
     trace->Update();
   };
   ExpectRemedy(trace, "Give it a vtkPolyData whose points", run,
-    [&] { path = MakePath({ 0.01, -0.01 }); });
+    [&] {
+      path = MakePath({ 0.01, -0.01 });
+    });
   path = MakePath({ 0.01, NotANumber, -0.01 });
   ExpectRemedy(trace, "Remove it, or mend the source of port 0", run,
-    [&] { path = MakePath({ 0.01, -0.01 }); });
+    [&] {
+      path = MakePath({ 0.01, -0.01 });
+    });
   vtkNew<vtkGodObjectTrace> table;
   table->SetInputData(0, path);
   table->SetInputData(1, MakeTable(0.0));
-  ExpectRemedy(table, "Call Update() first", [&] { table->WriteCSV("TestRemedies.csv"); },
+  ExpectRemedy(
+    table, "Call Update() first", [&] { table->WriteCSV("TestRemedies.csv"); },
     [&] { table->Update(); });
   std::remove("TestRemedies.csv");
 }
@@ -407,8 +420,9 @@ TEST(Remedies, OfRecordings)
   player->SetDevice(recorded);
   ASSERT_TRUE(recorded->Open()) << recorded->GetErrorMessage();
   player->SetRecordingFileName(name.c_str());
-  ExpectRemedy(player, "Give another RecordingFileName, or an empty one",
-    [&] { player->Step(1); }, [&] { player->SetRecordingFileName(""); });
+  ExpectRemedy(
+    player, "Give another RecordingFileName, or an empty one", [&] { player->Step(1); },
+    [&] { player->SetRecordingFileName(""); });
   player->Stop();
   std::remove(name.c_str());
 }
