@@ -16,6 +16,7 @@
 #include "pqServerManagerObserver.h"
 #include "pqSettings.h"
 #include "pqUndoStack.h"
+#include "vtkCommand.h"
 #include "vtkHapticDevice.h"
 #include "vtkHapticScene.h"
 #include "vtkMouseHapticDevice.h"
@@ -23,6 +24,7 @@
 #include "vtkPVDataInformation.h"
 #include "vtkPVHapticScene.h"
 #include "vtkPVRenderView.h"
+#include "vtkSMHapticSceneProxy.h"
 #include "vtkSMParaViewPipelineControllerWithRendering.h"
 #include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
@@ -115,7 +117,7 @@ pqHapticsManager::pqHapticsManager(QObject* parent)
   pqServerManagerObserver* observer = pqApplicationCore::instance()->getServerManagerObserver();
   const auto look = [this](const QString& group)
   {
-    if (group == Group)
+    if (group == Group || group == "settings")
     {
       this->findScene();
     }
@@ -131,6 +133,17 @@ pqHapticsManager::pqHapticsManager(QObject* parent)
 vtkSMProxy* pqHapticsManager::scene() const
 {
   return this->Scene;
+}
+
+vtkSMProxy* pqHapticsManager::values() const
+{
+  pqServer* server = pqActiveObjects::instance().activeServer();
+  if (this->Scene || !server)
+  {
+    return this->Scene;
+  }
+  vtkSMProxy* settings = server->proxyManager()->GetProxy("settings", "HapticSettings");
+  return settings ? settings : server->proxyManager()->GetPrototypeProxy(Group, "HapticScene");
 }
 
 vtkPVHapticScene* pqHapticsManager::clientScene() const
@@ -225,6 +238,14 @@ void pqHapticsManager::findScene()
     }
   }
   this->adoptScene(found);
+  // Until there is a scene the panel shows what it will begin with.
+  vtkSMProxy* begin = this->values();
+  if (begin && begin != this->Scene && begin != this->Begin)
+  {
+    this->Begin = begin;
+    pqCoreUtilities::connect(
+      begin, vtkCommand::PropertyModifiedEvent, this, SIGNAL(sceneChanged()));
+  }
 }
 
 void pqHapticsManager::adoptScene(vtkSMProxy* proxy)
@@ -250,7 +271,13 @@ vtkSMProxy* pqHapticsManager::makeScene()
   scene.TakeReference(proxies->NewProxy(Group, "HapticScene"));
   vtkNew<vtkSMParaViewPipelineController> controller;
   controller->InitializeProxy(scene);
-  vtkSMPropertyHelper(scene, "Device").Set(this->device().toUtf8().data());
+  const QString device = this->device();
+  vtkSMProxy* begin = this->values();
+  if (begin && begin->GetXMLGroup() == std::string("settings"))
+  {
+    vtkSMHapticSceneProxy::SafeDownCast(scene)->TakeSettings(begin);
+  }
+  vtkSMPropertyHelper(scene, "Device").Set(device.toUtf8().data());
   scene->UpdateVTKObjects();
   proxies->RegisterProxy(Group, "HapticScene", scene); // findScene() takes it from here
   return this->Scene;
@@ -262,7 +289,12 @@ QString pqHapticsManager::device() const
   {
     return vtkSMPropertyHelper(this->Scene, "Device").GetAsString();
   }
-  return pqApplicationCore::instance()->settings()->value(DeviceSetting, "mouse").toString();
+  vtkSMProxy* begin = this->values();
+  const bool isChosen = begin && begin->GetXMLGroup() == std::string("settings");
+  const QString chosen = isChosen ? vtkSMPropertyHelper(begin, "Device").GetAsString() : "";
+  return !chosen.isEmpty()
+    ? chosen
+    : pqApplicationCore::instance()->settings()->value(DeviceSetting, "mouse").toString();
 }
 
 void pqHapticsManager::setDevice(const QString& device)
@@ -576,6 +608,10 @@ void pqHapticsManager::noticeState()
   if (engaged != this->Engaged)
   {
     this->Engaged = engaged;
+    if (!engaged)
+    {
+      this->redraw(); // without the hand, however lately it was drawn
+    }
     emit this->engagedChanged(engaged);
   }
 }

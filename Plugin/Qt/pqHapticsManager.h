@@ -52,6 +52,9 @@ public:
   vtkSMProxy* scene() const;
   /** The same, made where there is none; null without a server. */
   vtkSMProxy* makeScene();
+  /** What has the values of scene(), or where there is none those that Touch begins with; null
+   * without a server. */
+  vtkSMProxy* values() const;
   ///@{
   /** What the proxy drives, to read from; null where scene() is. */
   vtkPVHapticScene* clientScene() const;
@@ -108,7 +111,7 @@ public Q_SLOTS:
   void complain(const QString& title, const QString& message);
 
 Q_SIGNALS:
-  /** scene() is another one, or none. */
+  /** scene() is another one, or none, or what it will begin with has changed. */
   void sceneChanged();
   void engagedChanged(bool engaged);
   /** What the scene tells may have changed. */
@@ -133,6 +136,7 @@ private:
   void draw();
 
   vtkWeakPointer<vtkSMProxy> Scene;
+  vtkWeakPointer<vtkSMProxy> Begin; // whose changes are followed, see values()
   QPointer<pqView> View;
   pqHapticsRecorder* Recorder;
   pqHapticsPen* Pen;

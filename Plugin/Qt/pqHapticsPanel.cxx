@@ -7,7 +7,6 @@
 #include "pqHapticsManager.h"
 #include "pqHapticsRecorder.h"
 #include "vtkCommand.h"
-#include "vtkGodObjectFilter.h"
 #include "vtkHapticDevice.h"
 #include "vtkHapticLandmarks.h"
 #include "vtkHapticScene.h"
@@ -269,33 +268,20 @@ void pqHapticsPanel::showSettings()
   {
     needsScene->setEnabled(scene != nullptr);
   }
-  if (scene)
+  form.clutch->setChecked(scene && vtkSMPropertyHelper(scene, "Clutched").GetAsInt() != 0);
+  form.landmarkDistance->setCurrentIndex(scene
+      ? vtkSMPropertyHelper(scene, "LandmarkDistance").GetAsInt()
+      : static_cast<int>(vtkHapticLandmarks::STRAIGHT));
+  if (vtkSMProxy* values = this->Manager->values())
   {
     const QSignalBlocker stiffness(form.stiffness);
     const QSignalBlocker force(form.maximumForce);
-    form.stiffness->setValue(vtkSMPropertyHelper(scene, "Stiffness").GetAsDouble());
-    form.maximumForce->setValue(vtkSMPropertyHelper(scene, "MaximumForce").GetAsDouble());
-    form.clutch->setChecked(vtkSMPropertyHelper(scene, "Clutched").GetAsInt() != 0);
-    form.side->setCurrentIndex(vtkSMPropertyHelper(scene, "Side").GetAsInt());
-    form.landmarkDistance->setCurrentIndex(
-      vtkSMPropertyHelper(scene, "LandmarkDistance").GetAsInt());
-    form.showForce->setChecked(vtkSMPropertyHelper(scene, "ShowForce").GetAsInt() != 0);
-    form.showReadout->setChecked(vtkSMPropertyHelper(scene, "ShowReadout").GetAsInt() != 0);
-    form.showTrail->setChecked(vtkSMPropertyHelper(scene, "ShowTrail").GetAsInt() != 0);
-  }
-  else
-  {
-    // The defaults of the scene that Touch will make.
-    const QSignalBlocker stiffness(form.stiffness);
-    const QSignalBlocker force(form.maximumForce);
-    form.stiffness->setValue(500.0);
-    form.maximumForce->setValue(3.3);
-    form.side->setCurrentIndex(vtkGodObjectFilter::AUTOMATIC_SIDE);
-    form.landmarkDistance->setCurrentIndex(vtkHapticLandmarks::STRAIGHT);
-    form.showForce->setChecked(true);
-    form.showReadout->setChecked(false);
-    form.showTrail->setChecked(false);
-    form.clutch->setChecked(false);
+    form.stiffness->setValue(vtkSMPropertyHelper(values, "Stiffness").GetAsDouble());
+    form.maximumForce->setValue(vtkSMPropertyHelper(values, "MaximumForce").GetAsDouble());
+    form.side->setCurrentIndex(vtkSMPropertyHelper(values, "Side").GetAsInt());
+    form.showForce->setChecked(vtkSMPropertyHelper(values, "ShowForce").GetAsInt() != 0);
+    form.showReadout->setChecked(vtkSMPropertyHelper(values, "ShowReadout").GetAsInt() != 0);
+    form.showTrail->setChecked(vtkSMPropertyHelper(values, "ShowTrail").GetAsInt() != 0);
   }
   this->showRecorder();
 }

@@ -17,6 +17,7 @@
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
+#include "vtkProcessModule.h"
 #include "vtkTriangleFilter.h"
 #include "vtkTrivialProducer.h"
 
@@ -68,6 +69,13 @@ vtkSmartPointer<vtkPolyData> Gather(vtkDataObject* data, const std::vector<std::
   }
   append->Update();
   return append->GetOutput();
+}
+
+/// Whether this process is alone. A client of a server has no pieces.
+bool HasAllPieces()
+{
+  vtkProcessModule* processes = vtkProcessModule::GetProcessModule();
+  return processes && processes->GetNumberOfLocalPartitions() == 1;
 }
 
 /// The triangles of the cells that are this process' own.
@@ -153,10 +161,16 @@ int vtkHapticSurfaceRepresentation::ProcessViewRequest(
     // The size of what is drawn decides where it is drawn; this is not drawn, and counts for 1 KB.
     vtkPVView::SetPiece(inInfo, this, this->LocalTriangles, 1, HapticPort);
     vtkPVRenderView::SetDeliverToClientAndRenderingProcesses(inInfo, this, true, true, HapticPort);
+    if (!this->WasDelivered && HasAllPieces() && this->LocalTriangles->GetNumberOfPolys() > 0)
+    {
+      this->Receive(this->LocalTriangles); // the same that a render brings, which may never come
+    }
   }
   else if (request == vtkPVView::REQUEST_RENDER())
   {
-    this->Receive(vtkPVView::GetDeliveredPiece(inInfo, this, HapticPort));
+    vtkDataObject* delivered = vtkPVView::GetDeliveredPiece(inInfo, this, HapticPort);
+    this->WasDelivered = this->WasDelivered || delivered;
+    this->Receive(delivered);
   }
   return 1;
 }

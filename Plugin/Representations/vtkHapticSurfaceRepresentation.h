@@ -5,7 +5,8 @@
  * One of the representations that a source has in a view. Where it is touchable, each process makes
  * triangles of its piece of the surface (without ghost cells, lines and vertices) and gives them to
  * the view on a port of their own, HapticPort. The view brings all pieces to the client with each
- * render, wherever it draws. GetTouchedActor() has them there.
+ * render, wherever it draws; a process that is alone has them without one. GetTouchedActor() has
+ * them there.
  *
  * Another representation of the source may be drawn meanwhile, Surface With Edges or Volume for
  * example: SetTouchable(). Where this one is chosen itself, as Haptic Surface, it draws what
@@ -70,7 +71,8 @@ public:
   /**
    * On the client: what is touched, for vtkHapticScene::AddSurface(). An actor in no renderer with
    * the triangles of all processes and the matrix, visibility and pickability that the
-   * representation has now. Null before the first render, and where nothing was delivered.
+   * representation has now. Null before the first render (of a single process: before the
+   * view's first update), and where nothing was delivered.
    */
   vtkActor* GetTouchedActor();
 
@@ -107,6 +109,7 @@ private:
   vtkSmartPointer<vtkPolyData> LocalTriangles; // another object after each change
   vtkSmartPointer<vtkDataObject> Delivered;
   vtkMTimeType DeliveredTime = 0;
+  bool WasDelivered = false;         // by a render
   vtkSmartPointer<vtkActor> Touched; // made when something is delivered
   vtkNew<vtkTrivialProducer> Producer;
 

@@ -142,6 +142,7 @@ void vtkPVHapticScene::SetRecordTrace(bool record)
   vtkHapticTraceRecorder* recorder = this->Internal->Scene->GetTraceRecorder();
   if (record && !recorder->GetRecording())
   {
+    this->SyncSurfaces(); // whose arrays it has
     for (const std::string& name : this->Internal->NamesOfArrays())
     {
       recorder->AddSurfaceArray(name.c_str());

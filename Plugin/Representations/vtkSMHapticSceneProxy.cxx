@@ -19,6 +19,13 @@
 
 vtkStandardNewMacro(vtkSMHapticSceneProxy);
 
+namespace
+{
+/// The properties that vtkHapticSettings has too.
+constexpr const char* SettingNames[] = { "Device", "Stiffness", "MaximumForce", "Side", "ShowForce",
+  "ShowReadout", "ShowTrail" };
+}
+
 vtkSMHapticSceneProxy::vtkSMHapticSceneProxy()
 {
   this->AddObserver(
@@ -107,8 +114,45 @@ void vtkSMHapticSceneProxy::UpdateVTKObjects()
   this->SyncWorkspace(); // else setting again what another device or view has undone does nothing
 }
 
+void vtkSMHapticSceneProxy::TakeSettings(vtkSMProxy* settings)
+{
+  for (const char* name : SettingNames)
+  {
+    vtkSMProperty* chosen = settings->GetProperty(name);
+    const bool isEmpty = vtkSMStringVectorProperty::SafeDownCast(chosen) &&
+      *vtkSMPropertyHelper(chosen).GetAsString() == 0;
+    if (!isEmpty)
+    {
+      this->GetProperty(name)->Copy(chosen);
+    }
+  }
+}
+
+/// A trace that begins now knows nothing of what was set before.
+void vtkSMHapticSceneProxy::TraceFromHereOn()
+{
+  this->TracedTo = vtkSMTrace::GetActiveTracer();
+  SM_SCOPED_TRACE(TraceText).arg("import vtkhaptics.paraview");
+  for (const char* name : { "View", "Surfaces", "WorkspaceTransform" })
+  {
+    const bool isSet = name == std::string("WorkspaceTransform")
+      ? !this->GetProperty(name)->IsValueDefault()
+      : vtkSMPropertyHelper(this, name).GetNumberOfElements() > 0;
+    if (isSet)
+    {
+      this->Untraced.insert(name);
+    }
+  }
+  // Also where they are the defaults: another user's settings may differ.
+  this->Untraced.insert(std::begin(SettingNames), std::end(SettingNames));
+}
+
 void vtkSMHapticSceneProxy::Trace()
 {
+  if (this->TracedTo != vtkSMTrace::GetActiveTracer())
+  {
+    this->TraceFromHereOn();
+  }
   vtkSMTrace::TraceItemArgs values;
   vtkSMTrace::TraceItemArgs surfaces;
   values.arg("vtkhaptics.paraview.scene().set");
@@ -148,11 +192,6 @@ void vtkSMHapticSceneProxy::Trace()
     {
       surfaces.arg(value.GetAsProxy(i));
     }
-  }
-  if (this->TracedTo != vtkSMTrace::GetActiveTracer())
-  {
-    this->TracedTo = vtkSMTrace::GetActiveTracer();
-    SM_SCOPED_TRACE(TraceText).arg("import vtkhaptics.paraview");
   }
   if (this->Untraced.count("Surfaces") > 0)
   {

@@ -5,8 +5,7 @@
  * A view or representation that is unregistered leaves the scene at once, as does everything when
  * the server is lost; state files get the workspace transform that is in force; surfaces are named
  * as the pipeline browser names their sources; and while ParaView traces, each change of a property
- * becomes a line of Python.
- *
+ * becomes a line of Python, the first with all that counts. *
  * GUI thread.
  *
  * @sa vtkPVHapticScene
@@ -34,6 +33,9 @@ public:
   /** The scene itself; null for the prototype. */
   vtkPVHapticScene* GetScene();
 
+  /** Takes over what the proxy of a vtkHapticSettings has, but for an empty device. */
+  void TakeSettings(vtkSMProxy* settings);
+
   void UpdateVTKObjects() override;
   using vtkSMProxy::UpdatePropertyInformation;
   void UpdatePropertyInformation() override;
@@ -56,6 +58,7 @@ private:
   void OnPropertyModified(vtkObject* caller, unsigned long event, void* name);
   void SyncWorkspace();
   void NameSurfaces(vtkSMProxy* source, const char* name);
+  void TraceFromHereOn();
   void Trace();
 
   std::set<std::string> Untraced;      // properties that have changed since the last update

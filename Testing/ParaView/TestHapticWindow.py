@@ -91,7 +91,9 @@ def touch_a_contour(desktop, program):
 
     # A stroke becomes a curve, a source of its own.
     program.key("c")
+    before = hand.state()[4]
     program.drag(0.46, 0.70)
+    hand.wait(lambda *state: state[4] != before, "the stroke")
     program.key("c")
     hand.wait(lambda *state: state[-1] > 1, "a curve")
     desktop.xdo("keyup", "space")

@@ -11,6 +11,7 @@
 attribute of it. Its servo runs on the client, also where the data are on a server.
 """
 
+import functools
 import glob
 import math
 import os
@@ -134,7 +135,7 @@ class Scene:
             self.set(View=view, Surfaces=[])
         if display not in self.Surfaces:
             self.set(Surfaces=list(self.Surfaces) + [display])
-        simple.Render(view)  # which brings the triangles to the client
+        _bring(view)
         return display
 
     def touch_only(self, *displays):
@@ -146,7 +147,7 @@ class Scene:
             self.set(View=view)
         self.set(Surfaces=list(displays))
         if view:
-            simple.Render(view)  # which brings the triangles to the client
+            _bring(view)
 
     def engage(self):
         """Starts the servo in real time. Raises HapticsError where it cannot.
@@ -171,7 +172,13 @@ class Scene:
         self.proxy.InvokeCommand("Update")
 
     def step(self, ticks):
-        """Runs ticks in virtual time, as fast as they come. Raises HapticsError."""
+        """Runs ticks in virtual time, as fast as they come. Raises HapticsError.
+
+        Needs no picture, hence no display, but with several processes, where renders bring the
+        surfaces to the client.
+        """
+        if self.View and not _needs_render():
+            _bring(self.View)  # what has changed upstream, or come with a state
         # Not proxy.Step = ticks, which does nothing when it is the same number again.
         self.proxy.SMProxy.GetProperty("Step").SetElement(0, ticks)
         self.proxy.SMProxy.UpdateProperty("Step", 1)
@@ -203,6 +210,16 @@ class Scene:
     def trace_source(self, name="HapticTrace"):
         """The trace as a new source of the pipeline."""
         return _source(self.trace(), name)
+
+    def curve_source(self, name="HapticCurves"):
+        """The strokes of the trace that touched as a new source: a curve each, with the arrays along it."""
+        from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+        from .vtkHapticsRepresentations import vtkHapticRecordSource
+
+        curves = vtkPolyData()
+        vtkHapticRecordSource.MakeCurves(self.trace(), 0, curves)
+        return _source(curves, name)
 
     def landmark_source(self, name="HapticLandmarks"):
         """The landmarks as a new source of the pipeline."""
@@ -244,6 +261,78 @@ def _describe(proxy):
     return "\n".join(lines)
 
 
+def _needs_render():
+    """Whether surfaces come to the client by a render alone: from other processes."""
+    controller = servermanager.vtkProcessModule.GetProcessModule().GetGlobalController()
+    alone = not controller or controller.GetNumberOfProcesses() == 1
+    return servermanager.ActiveConnection.IsRemote() or not alone
+
+
+def _bring(view):
+    """Brings the triangles to the client."""
+    if _needs_render():
+        simple.Render(view)
+    else:
+        view.SMProxy.Update()
+
+
+def state_lines():
+    """Lines of Python that restore the scene after the sources and views of a Python state; [] for none."""
+    proxy = servermanager.ProxyManager().GetProxy("haptics", "HapticScene")
+    if not proxy:
+        return []
+    hand = Scene(servermanager._getPyProxy(proxy))
+    names = {source.SMProxy: name for (name, _), source in simple.GetSources().items()}
+    shown = [display for display in hand.Surfaces if display.Input.SMProxy in names]
+    if not hand.View or not shown:
+        return []
+    view = hand.View.SMProxy
+    view_name = view.GetSessionProxyManager().GetProxyName("views", view)
+    chosen = {name: getattr(hand, name) for name in _IN_STATES}
+    lines = [
+        "",
+        "# what was touched",
+        "import vtkhaptics.paraview",
+        f"touchedView = FindViewOrCreate({view_name!r}, viewtype={hand.View.GetXMLName()!r})"
+        if view_name
+        else "touchedView = GetActiveViewOrCreate('RenderView')",
+        "vtkhaptics.paraview.scene().touch_only(",
+    ]
+    for display in shown:
+        source = f"FindSource({names[display.Input.SMProxy]!r})"
+        lines.append(f"    GetDisplayProperties({source}, view=touchedView),")
+    lines.append(")")
+    lines.append("vtkhaptics.paraview.scene().set(")
+    for name, value in chosen.items():
+        if not isinstance(value, (str, int, float)):
+            value = value[0] if len(value) == 1 else list(value)
+        lines.append(f"    {name}={value!r},")
+    return lines + [")"]
+
+
+_IN_STATES = (
+    "Device", "Stiffness", "MaximumForce", "Side", "ShowForce", "ShowReadout", "ShowTrail",
+    "WorkspaceTransform",
+)
+
+
+def _extend_states():
+    """Lets ParaView's Python states have the scene: ParaView asks no plugin what to write there."""
+    from paraview import smstate
+
+    if not hasattr(smstate.get_state, "without_haptics"):
+        original = smstate.get_state
+
+        @functools.wraps(original)
+        def get_state(*args, **kwargs):
+            state = original(*args, **kwargs)
+            raw = kwargs.get("raw", False) or not isinstance(state, str)
+            return state if raw else "\n".join([state, *state_lines()])
+
+        get_state.without_haptics = original
+        smstate.get_state = get_state
+
+
 def _make_touchable(display):
     if not display.SMProxy.GetProperty("Touchable"):
         raise HapticsError(
@@ -283,3 +372,6 @@ def touch(source=None, view=None, **properties):
     hand.set(**properties)
     hand.touch(source, view)
     return hand
+
+
+_extend_states()

@@ -31,6 +31,7 @@ private Q_SLOTS:
   void aRestingHandIsNotDrawnAgain();
   void theHandFollowsTheActiveView();
   void panelAndProxyShowTheSameSettings();
+  void settingsAreWhatTouchBeginsWith();
   void landmarksBecomeASource();
   void aRecordingIsPlayedBack();
   void theForceChartFollowsTheHand();

@@ -1,0 +1,76 @@
+"""Touch needs no display in virtual time; a Python state, and a trace that begins late, restore the scene.
+
+Alone, and in this order: ParaView traces once a process.
+"""
+
+import os
+import unittest
+
+os.environ.pop("DISPLAY", None)  # a render would end this process, where ParaView draws by X
+
+import numpy as np
+from HapticSceneTesting import haptics, main, trace_arrays
+from paraview import simple, smstate, smtrace
+
+
+def stroke(hand):
+    hand.RecordTrace = 1
+    hand.step(1500)
+    hand.RecordTrace = 0
+    return trace_arrays(hand)
+
+
+class TestHapticWithoutPicture(unittest.TestCase):
+    def setUp(self):
+        self.wavelet = simple.Wavelet(registrationName="Data")
+        self.contour = simple.Contour(
+            registrationName="Touched", Input=self.wavelet, ContourBy=["POINTS", "RTData"],
+            Isosurfaces=[157.0], ComputeScalars=1,
+        )
+        view = simple.CreateView("RenderView")
+        self.hand = haptics.touch(self.contour, view, Device="simulated", Stiffness=250.0, Side="Both")
+        self.felt = stroke(self.hand)
+        self.assertGreater((self.felt["ActiveConstraints"] > 0).sum(), 500)
+
+    def tearDown(self):
+        simple.ResetSession()
+
+    def assert_felt_again(self, hand):
+        self.assertEqual((hand.Stiffness, hand.Side, hand.Device), (250.0, "Both", "simulated"))
+        again = stroke(hand)
+        for name in set(self.felt) - {"Surface"}:  # ids are given anew
+            np.testing.assert_array_equal(self.felt[name], again[name], name)
+
+    def test_1_what_changes_upstream_is_felt(self):
+        self.contour.Isosurfaces = [200.0]
+        again = stroke(self.hand)
+        self.assertFalse(np.array_equal(self.felt["HapticInterfacePoint"], again["HapticInterfacePoint"])
+                         and np.array_equal(self.felt["Penetration"], again["Penetration"]))
+
+    def test_2_strokes_become_curves(self):
+        curves = self.hand.curve_source()
+        curves.UpdatePipeline()
+        values = curves.PointData["RTData"].GetRange()  # constant on its contour
+        self.assertAlmostEqual(values[0], 157.0, 3)
+        self.assertAlmostEqual(values[1], 157.0, 3)
+        self.assertGreater(curves.PointData["arc_length"].GetRange()[1], 1.0)
+
+    def test_3_a_python_state_restores_the_scene(self):
+        state = smstate.get_state()
+        simple.ResetSession()
+        exec(compile(state, "state", "exec"), {})
+        self.assert_felt_again(haptics.scene())
+
+    def test_4_a_trace_that_begins_late_has_all_that_counts(self):
+        smtrace.start_trace()
+        self.hand.set(MaximumForce=3.0)
+        self.hand.set(MaximumForce=3.3)
+        script = smtrace.stop_trace()
+        # What the user has meanwhile; the sources are there, as for any trace that begins late.
+        self.hand.set(Surfaces=[], View=None, Stiffness=400.0, Side="Front", Device="mouse")
+        exec(compile(script, "trace", "exec"), {})
+        self.assert_felt_again(haptics.scene())
+
+
+if __name__ == "__main__":
+    main()
