@@ -11,14 +11,15 @@ struct ReportedKey
   char Code = 0;                ///< vtkRenderWindowInteractor::GetKeyCode()
   const char* Symbol = nullptr; ///< vtkRenderWindowInteractor::GetKeySym()
   bool Shift = false;           ///< vtkRenderWindowInteractor::GetShiftKey()
-  bool IgnoresShift = false;    ///< on X11 VTK reports what the key types without Shift
+  bool IgnoresShift = false;    ///< VTK reports what the key types without Shift: X11, before 9.4
 };
 
 /// @brief The character that a key types.
 ///
-/// X11 reports '?' as the key that it lies on: '/' on US keyboards, "ssharp" on German ones; and no
-/// character for the keys of the keypad. Which key types '?', '+' and '0' with Shift depends on the
-/// keyboard: US and British; German; French and Belgian; Italian, Spanish and Swiss; Nordic.
+/// Before VTK 9.4 X11 reports '?' as the key that it lies on: '/' on US keyboards, "ssharp" on
+/// German ones; and no character for the keys of the keypad. Which key types '?', '+' and '0' with
+/// Shift depends on the keyboard: US and British; German; French and Belgian; Italian, Spanish and
+/// Swiss; Nordic.
 inline char TypedKey(const ReportedKey& key)
 {
   const auto is = [&key](const char* name)

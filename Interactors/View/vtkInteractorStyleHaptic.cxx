@@ -19,6 +19,7 @@
 #include "vtkRenderer.h"
 #include "vtkRendererCollection.h"
 #include "vtkTimerLog.h"
+#include "vtkVersion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -547,7 +548,9 @@ void vtkInteractorStyleHaptic::OnChar()
   reported.Code = this->Interactor->GetKeyCode();
   reported.Symbol = this->Interactor->GetKeySym();
   reported.Shift = this->Interactor->GetShiftKey() != 0;
+#if VTK_VERSION_NUMBER < VTK_VERSION_CHECK(9, 3, 20240201)
   reported.IgnoresShift = this->Interactor->IsA("vtkXRenderWindowInteractor");
+#endif
   const char key = haptics::TypedKey(reported);
   if (this->Interactor->GetControlKey() || this->Interactor->GetAltKey())
   {

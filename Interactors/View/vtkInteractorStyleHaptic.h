@@ -23,8 +23,8 @@
  * - q, e: end, as the window's close button and Ctrl-C do
  *
  * Keys are taken as they are typed on US, British, German, French, Italian, Spanish and Nordic
- * keyboards and on keypads, whatever VTK reports of them: on X11 it reports keys as they
- * are without Shift.
+ * keyboards and on keypads, whatever VTK reports of them: on X11 before VTK 9.4 it reports keys as
+ * they are without Shift.
  *
  * Where the scene's overlay is in the picture it says what the hand does (touching, waiting,
  * clutched, released, preparing) and why a key did nothing; with a mouse also how to begin, until
