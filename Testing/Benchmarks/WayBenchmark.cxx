@@ -41,7 +41,7 @@ Prints CSV: surface, speed, depth, method ("pieces" or "steps"), its number, con
 share of them that is apart [%], mean, 99th and 99.9th percentile of the time of a tick [us]. Each
 tick's time is the least of three runs. Rows "moved": the converged god-object of a hand that is
 1 um aside. Rows "rate": the same hand sampled at so many Hz, against the converged one at 4 kHz, for
-one piece and for the default.
+one piece and for the largest of --limits.
 )";
 
 constexpr double Hand = 0.05;      // radius of a surface in the hand [m]
@@ -250,8 +250,8 @@ std::vector<T> EveryNth(const std::vector<T>& all, int n)
 using Trace = std::vector<Contact>;
 
 /// Every tick's way in 512 steps, 1024, ... until two agree.
-Trace Converged(const std::shared_ptr<const TriangleSurface>& surface, const std::vector<Vec3>& hips,
-  const Vec3& start)
+Trace Converged(const std::shared_ptr<const TriangleSurface>& surface,
+  const std::vector<Vec3>& hips, const Vec3& start)
 {
   GodObject before({ surface });
   GodObject trial({ surface });
@@ -304,8 +304,8 @@ Trace Touched(const std::shared_ptr<const TriangleSurface>& surface, const std::
       god.Update(last + (static_cast<double>(i) / steps) * (hips[k] - last));
     }
     trace.push_back(god.Update(hips[k]));
-    times[k] = std::min(
-      times[k], std::chrono::duration<double, std::micro>(Clock::now() - begin).count());
+    times[k] =
+      std::min(times[k], std::chrono::duration<double, std::micro>(Clock::now() - begin).count());
     last = hips[k];
   }
   return trace;
@@ -340,8 +340,7 @@ void Print(const std::string& head, const char* method, double number, const Sha
   std::printf("%s,%s,%g,%ld,%.3f", head.c_str(), method, number, share.Contact, share.Percent());
   if (!times.empty())
   {
-    std::printf(
-      ",%.3f,%.2f,%.2f", Mean(times), Quantile(times, 0.99), Quantile(times, 0.999));
+    std::printf(",%.3f,%.2f,%.2f", Mean(times), Quantile(times, 0.99), Quantile(times, 0.999));
   }
   else
   {
@@ -414,7 +413,9 @@ void Measure(const Options& options, const std::string& name,
   {
     run("steps", steps, 1, static_cast<int>(steps));
   }
-  for (const int pieces : { 1, 0 })
+  const int most =
+    static_cast<int>(*std::max_element(options.Limits.begin(), options.Limits.end()));
+  for (const int pieces : { 1, most })
   {
     for (const int every : { 8, 4, 2, 1 })
     {
@@ -423,7 +424,8 @@ void Measure(const Options& options, const std::string& name,
       {
         const std::vector<Vec3> hips = EveryNth(hand.Fine, every);
         std::vector<double> least(hips.size(), HUGE_VAL);
-        share.Add(EveryNth(Touched(surface, hips, hand.Start, pieces, 1, least), 8 / every), hand.FineRight);
+        share.Add(EveryNth(Touched(surface, hips, hand.Start, pieces, 1, least), 8 / every),
+          hand.FineRight);
       }
       Print(head, pieces == 1 ? "rate, one piece" : "rate", 4000.0 / every, share, {});
     }

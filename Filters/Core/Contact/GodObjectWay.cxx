@@ -5,8 +5,8 @@
 namespace haptics
 {
 /// Takes the god-object along with the HIP on its straight way since the update before, in pieces
-/// where what holds it changes, as if the HIP were sampled so much more often; the rest is one piece
-/// as soon as nothing changes any more.
+/// where what holds it changes, as if the HIP were sampled so much more often; the rest is one
+/// piece as soon as nothing changes any more.
 ///
 ///     from ----|----|----|----> hip        each | is where the god-object comes to rest
 ///
