@@ -2,7 +2,7 @@
 // with numbers and distances beside them: readable over both, seen whole though their balls lie on
 // slopes, and hidden with their ball by what is in front. The dark ball moves away and takes its
 // landmark with it, whose distance grows. The hand is out of the picture, and they are not.
-// Seen to fail without the texts, without their lift, and with the landmarks not following.
+// It failed, with no landmark drawn, while they did not count for the picture's bounds.
 #include "ImageTestTools.h"
 
 #include "vtkHapticLandmarks.h"
