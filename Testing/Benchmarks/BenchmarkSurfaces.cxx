@@ -1,4 +1,5 @@
 #include "BenchmarkSurfaces.h"
+#include "RandomVectors.h"
 
 #include "AnalyticSurfaces.h"
 #include "FirstHit.h"
@@ -130,7 +131,7 @@ public:
     , Far(2.0 * Ray.Surfaces().front().Surface->Radius())
     , Random(seed)
   {
-    this->Direction = Unit(this->Normals());
+    this->Direction = Unit(NormalVector(this->Random));
     this->Height = this->HeightAt();
   }
 
@@ -152,20 +153,12 @@ public:
   }
 
 private:
-  Vec3 Normals()
-  {
-    std::normal_distribution<double> normal;
-    const double x = normal(this->Random);
-    const double y = normal(this->Random);
-    return { x, y, normal(this->Random) };
-  }
-
   void Wander()
   {
     if (this->IsAbove)
     {
       // A random walk of the velocity, to about 0.1 m/s, turned back at the reach.
-      this->Velocity = 0.995 * this->Velocity + 0.006 * this->Normals();
+      this->Velocity = 0.995 * this->Velocity + 0.006 * NormalVector(this->Random);
       for (int k = 0; k < 2; ++k)
       {
         const double next = this->Place[k] + TickTime * this->Velocity[k];
@@ -177,7 +170,7 @@ private:
       }
       return;
     }
-    this->Velocity = 0.995 * this->Velocity + 0.25 * this->Normals();
+    this->Velocity = 0.995 * this->Velocity + 0.25 * NormalVector(this->Random);
     this->Direction = Unit(this->Direction + TickTime * Cross(this->Velocity, this->Direction));
   }
 

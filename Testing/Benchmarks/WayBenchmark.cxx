@@ -2,6 +2,7 @@
 #include "AnalyticSurfaces.h"
 #include "BenchmarkSurfaces.h"
 #include "FirstHit.h"
+#include "RandomVectors.h"
 #include "Statistics.h"
 
 #include <algorithm>
@@ -160,8 +161,8 @@ public:
     , IsAbove(isAbove)
     , Random(seed)
   {
-    this->Outwards = Unit(this->Normals());
-    this->Along = Unit(Cross(this->Outwards, this->Normals()));
+    this->Outwards = Unit(NormalVector(this->Random));
+    this->Along = Unit(Cross(this->Outwards, NormalVector(this->Random)));
     this->Place = { 0.4 * Hand * this->Outwards[0], 0.4 * Hand * this->Outwards[1], 0.0 };
     this->Along = isAbove ? Unit({ this->Along[0], this->Along[1], 0.0 }) : this->Along;
     this->Smoothed = this->Height();
@@ -186,17 +187,9 @@ public:
   }
 
 private:
-  Vec3 Normals()
-  {
-    std::normal_distribution<double> normal;
-    const double x = normal(this->Random);
-    const double y = normal(this->Random);
-    return { x, y, normal(this->Random) };
-  }
-
   void Go(double step)
   {
-    const double turn = 4.0 * std::sqrt(step) * this->Normals()[0];
+    const double turn = 4.0 * std::sqrt(step) * NormalVector(this->Random)[0];
     if (this->IsAbove)
     {
       this->Along = Unit(this->Along + turn * Cross({ 0, 0, 1 }, this->Along));

@@ -1,6 +1,7 @@
 #include "SurfacePath.h"
 
 #include "AnalyticSurfaces.h"
+#include "RandomVectors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -114,14 +115,6 @@ int SurfacePath::Integer(int low, int high)
   return std::uniform_int_distribution<int>(low, high)(this->Random);
 }
 
-Vec3 SurfacePath::Normals()
-{
-  std::normal_distribution<double> normal;
-  const double x = normal(this->Random);
-  const double y = normal(this->Random);
-  return { x, y, normal(this->Random) };
-}
-
 /// Anywhere on a triangle.
 Vec3 SurfacePath::Place(std::int32_t& triangle)
 {
@@ -187,7 +180,7 @@ std::vector<Vec3> SurfacePath::Make(Kind kind, unsigned seed)
       Vec3 velocity{};
       for (int i = 0; i < 150; ++i)
       {
-        velocity = 0.9 * velocity + 0.3 * speed * this->Normals();
+        velocity = 0.9 * velocity + 0.3 * speed * NormalVector(this->Random);
         // Kept near the depth that was chosen.
         velocity = velocity - (0.05 * Dot(at - foot, n) + 0.05 * depth) * n;
         at = at + velocity;
@@ -220,7 +213,8 @@ std::vector<Vec3> SurfacePath::Make(Kind kind, unsigned seed)
         const std::int32_t corner =
           this->UsedCorners[this->Integer(0, static_cast<int>(this->UsedCorners.size()) - 1)];
         const Vec3& p = this->Points[corner];
-        const Vec3 out = Unit(sign * this->CornerNormals[corner] + 0.4 * this->Normals());
+        const Vec3 out =
+          Unit(sign * this->CornerNormals[corner] + 0.4 * NormalVector(this->Random));
         const double height = r * this->AnyScale(1e-4, 0.3);
         way.push_back(p + height * out);
         const int ticks = this->Integer(1, 8);
@@ -287,8 +281,8 @@ std::vector<Vec3> SurfacePath::Make(Kind kind, unsigned seed)
       const double step = Encoder * r;
       for (int i = 0; i < 150; ++i)
       {
-        base = base + 0.05 * step * this->Normals();
-        Vec3 hip = base + step * this->Normals();
+        base = base + 0.05 * step * NormalVector(this->Random);
+        Vec3 hip = base + step * NormalVector(this->Random);
         for (int k = 0; k < 3; ++k)
         {
           hip[k] = this->Middle[k] + step * std::round((hip[k] - this->Middle[k]) / step);
@@ -324,7 +318,7 @@ std::vector<Vec3> SurfacePath::Make(Kind kind, unsigned seed)
       way.push_back(foot + lift * sign * this->FacetNormals[triangle]);
       for (int i = 0; i < 80; ++i)
       {
-        Vec3 hip = foot + (lift + depth) * this->Normals();
+        Vec3 hip = foot + (lift + depth) * NormalVector(this->Random);
         for (int k = 0; k < 3 && !isNear; ++k)
         {
           hip[k] =
@@ -343,7 +337,7 @@ std::vector<Vec3> SurfacePath::Make(Kind kind, unsigned seed)
       const Vec3 foot = p + (this->Integer(0, 2) == 0 ? 0.0 : this->Uniform(0.0, 1.0)) * along;
       way.push_back(foot + lift * n);
       this->Approach(way, foot - depth * n, this->Integer(1, 10));
-      const Vec3 step = 1e-9 * r * UnitOrUp(this->Normals());
+      const Vec3 step = 1e-9 * r * UnitOrUp(NormalVector(this->Random));
       Vec3 hip = way.back();
       for (int i = 0; i < 100; ++i)
       {
@@ -405,7 +399,7 @@ std::vector<Vec3> SurfacePath::Make(Kind kind, unsigned seed)
       const bool isCorner = this->Integer(0, 2) == 0;
       const Vec3 n = sign * (isCorner ? this->CornerNormals[edge.From] : edge.Normal);
       const Vec3 foot = isCorner ? p : p + this->Uniform(0.1, 0.9) * along;
-      const Vec3 across = UnitOrUp(Cross(isCorner ? this->Normals() : along, n));
+      const Vec3 across = UnitOrUp(Cross(isCorner ? NormalVector(this->Random) : along, n));
       way.push_back(foot + lift * n);
       this->Approach(way, foot - depth * n, this->Integer(1, 20));
       const double step = this->Uniform(0.5, 6.0) * M_PI / 180.0;

@@ -52,7 +52,6 @@ private:
   /// Between two positive numbers, each scale as likely.
   double AnyScale(double low, double high);
   int Integer(int low, int high);
-  Vec3 Normals();
   Vec3 Place(std::int32_t& triangle);
   const Edge& AnyEdge();
   /// One of the sharpest of so many.
