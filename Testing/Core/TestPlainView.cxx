@@ -237,19 +237,23 @@ TEST(PlainView, ANeedleEndsAtItsTip)
     TriangleMesh needle;
     needle.Points = { { 0, 0, 0 }, { 1, halfWidth, 0 }, { 1, -halfWidth, 0 } };
     needle.Triangles = { { 0, 2, 1 } };
-    for (const Side side : { Side::Front, Side::Both })
+    for (const double scale : { 1.0, 1e-6, 1e6 })
     {
-      const auto surface = MakeSurface(needle, side);
-      for (const double x : { 1e-5, 1e-4, 1e-3, 1e-2, 5e-2, 0.2 })
+      for (const Side side : { Side::Front, Side::Both })
       {
+        const auto surface = MakeSurface(Scaled(needle, scale), side);
+        for (const double x : { 1e-5, 1e-4, 1e-3, 1e-2, 5e-2, 0.2 })
+        {
+          GodObject god({ surface });
+          god.Place({ -x * scale, 0, 0.1 * scale });
+          EXPECT_EQ(god.Update({ -x * scale, 0, -0.05 * scale }).Status, UpdateStatus::Free)
+            << halfWidth << ", " << x << ", scale " << scale;
+        }
         GodObject god({ surface });
-        god.Place({ -x, 0, 0.1 });
-        EXPECT_EQ(god.Update({ -x, 0, -0.05 }).Status, UpdateStatus::Free)
-          << halfWidth << ", " << x;
+        const double within = 1e-9 / halfWidth * scale;
+        god.Place({ within, 0, 0.1 * scale });
+        EXPECT_EQ(god.Update({ within, 0, -0.05 * scale }).Status, UpdateStatus::Touching);
       }
-      GodObject god({ surface });
-      god.Place({ 1e-9 / halfWidth, 0, 0.1 });
-      EXPECT_EQ(god.Update({ 1e-9 / halfWidth, 0, -0.05 }).Status, UpdateStatus::Touching);
     }
   }
 }
@@ -406,20 +410,23 @@ TEST(PlainView, TheTipOfAConeHoldsNothingInTheOpen)
         cone.Triangles.push_back({ 0, 2 + i, next });
         cone.Triangles.push_back({ 1, next, 2 + i });
       }
-      for (const Side side : { Side::Front, Side::Both })
+      for (const double scale : { 1.0, 1e-6, 1e6 })
       {
-        GodObject god({ MakeSurface(cone, side) });
-        god.Place({ 0, 0, 0.2 });
-        god.Update({ 0, 0, 0.09 });
-        for (int k = 0; k <= 60; ++k)
+        for (const Side side : { Side::Front, Side::Both })
         {
-          const double angle = 3.0 * k * Degree;
-          const Vec3 hip{ 0.01 * std::sin(angle), 0.003 * std::sin(2 * angle),
-            0.1 - 0.01 * std::cos(angle) };
-          god.Update(hip);
-          const Contact& contact = god.Update(hip);
-          EXPECT_TRUE(contact.Penetration < 1e-10 || !IsInPlainView(god, hip))
-            << sides << " sides, radius " << radius << ", step " << k;
+          GodObject god({ MakeSurface(Scaled(cone, scale), side) });
+          god.Place({ 0, 0, 0.2 * scale });
+          god.Update({ 0, 0, 0.09 * scale });
+          for (int k = 0; k <= 60; ++k)
+          {
+            const double angle = 3.0 * k * Degree;
+            const Vec3 hip{ 0.01 * std::sin(angle) * scale, 0.003 * std::sin(2 * angle) * scale,
+              (0.1 - 0.01 * std::cos(angle)) * scale };
+            god.Update(hip);
+            const Contact& contact = god.Update(hip);
+            EXPECT_TRUE(contact.Penetration < 1e-10 * scale || !IsInPlainView(god, hip))
+              << sides << " sides, radius " << radius << ", scale " << scale << ", step " << k;
+          }
         }
       }
     }

@@ -314,10 +314,7 @@ int UsbFs::Submit(Device& device, usbdevfs_urb* urb)
     device.Waiting.push_back({ urb, FalconModel::Clock::now() });
   }
   this->Service(device);
-  if (!device.Waiting.empty())
-  {
-    this->Wake.notify_one();
-  }
+  this->Wake.notify_one(); // for what is awaited, and where this was the time to be unplugged
   return 0;
 }
 
