@@ -151,6 +151,7 @@ int vtkHapticSurfaceRepresentation::ProcessViewRequest(
   const bool isDrawn = this->Superclass::GetVisibility();
   const int isDone = isDrawn
     ? this->Superclass::ProcessViewRequest(request, inInfo, outInfo)
+    // NOLINTNEXTLINE(bugprone-parent-virtual-call): the superclass would give something to draw
     : this->vtkPVDataRepresentation::ProcessViewRequest(request, inInfo, outInfo);
   if (!isDone)
   {
