@@ -2,6 +2,7 @@
 
 #include "haptics/Filters/NumberSetting.h"
 #include "haptics/View/ForceColor.h"
+#include "haptics/View/ViewHeight.h"
 #include "vtkActor.h"
 #include "vtkBillboardTextActor3D.h"
 #include "vtkCamera.h"
@@ -219,10 +220,6 @@ double vtkGodObjectActor::RadiusInWorld(vtkViewport* viewport) const
   const double height = std::max(1, renderer->GetSize()[1]);
   const double least = LeastPixels / height * std::min(1.0, this->Size / DefaultSize);
   const double size = tiles * std::max(this->Size, least);
-  if (camera->GetParallelProjection())
-  {
-    return size * 2.0 * camera->GetParallelScale();
-  }
   double toGodObject[3];
   vtkMath::Subtract(this->GodObject, camera->GetPosition(), toGodObject);
   double depth = vtkMath::Dot(toGodObject, camera->GetDirectionOfProjection());
@@ -230,8 +227,7 @@ double vtkGodObjectActor::RadiusInWorld(vtkViewport* viewport) const
   {
     depth = camera->GetDistance();
   }
-  const double halfAngle = 0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle());
-  return size * 2.0 * depth * std::tan(halfAngle);
+  return size * haptics::ViewHeight(camera, depth);
 }
 
 void vtkGodObjectActor::ArrangeForce(double radius)

@@ -3,6 +3,7 @@
 #include "vtkGodObjectActor.h"
 
 #include "haptics/View/ForceColor.h"
+#include "haptics/View/ViewHeight.h"
 #include "vtkActor.h"
 #include "vtkBillboardTextActor3D.h"
 #include "vtkCamera.h"
@@ -73,22 +74,11 @@ void Lift(vtkActor* part, vtkViewport* viewport, double pixels)
   vtkCamera* camera = renderer->GetActiveCamera();
   const double* range = camera->GetClippingRange();
   const bool parallel = camera->GetParallelProjection() != 0;
-  const double height = parallel
-    ? 2.0 * camera->GetParallelScale()
-    : 2.0 * std::tan(0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle()));
+  const double height = haptics::ViewHeight(camera, 1.0);
   const double slope = (parallel ? 1.0 : range[0] * range[1]) / (range[1] - range[0]);
   const double lift = pixels * height / std::max(1, viewport->GetSize()[1]) * slope;
   part->GetShaderProperty()->GetFragmentCustomUniforms()->SetUniformf(
     LiftUniform, static_cast<float>(lift));
-}
-
-/// The height of what is seen at a distance [world unit].
-double ViewHeight(vtkCamera* camera, double distance)
-{
-  return 2.0 *
-    (camera->GetParallelProjection()
-        ? camera->GetParallelScale()
-        : distance * std::tan(0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle())));
 }
 
 /// Bright on a dark ground with a bright edge, to be read over anything.
@@ -349,7 +339,7 @@ void vtkGodObjectActor::ArrangeTexts(vtkViewport* viewport, double ball)
         camera->GetParallelProjection() ? -axis[k] : camera->GetPosition()[k] - anchor[k];
     }
     const double distance = vtkMath::Normalize(toViewer);
-    const double height = ViewHeight(camera, distance);
+    const double height = haptics::ViewHeight(camera, distance);
     const double lift = std::min(TextLift * font * height / view, 0.5 * distance);
     for (int k = 0; k < 3; ++k)
     {

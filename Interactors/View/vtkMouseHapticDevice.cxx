@@ -3,6 +3,7 @@
 #include "haptics/Devices/DeviceRegistry.h"
 #include "haptics/Devices/LatestValue.h"
 #include "haptics/Devices/MonitoredChannel.h"
+#include "haptics/View/ViewHeight.h"
 #include "vtkCallbackCommand.h"
 #include "vtkCamera.h"
 #include "vtkCommand.h"
@@ -569,11 +570,9 @@ bool vtkMouseHapticDevice::Look(View& view)
     view.IsParallel ? -10.0 * (camera->GetDistance() + camera->GetClippingRange()[1]) : 0.0;
   std::copy(begin, begin + 3, view.From);
   view.At(view.Near, view.From);
-  const double height = std::max(1, renderer->GetSize()[1]);
-  view.Pixel[0] = view.IsParallel ? 2.0 * camera->GetParallelScale() / height : 0.0;
-  view.Pixel[1] = view.IsParallel
-    ? 0.0
-    : 2.0 * std::tan(0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle())) / height;
+  const double pixel = haptics::ViewHeight(camera, 1.0) / std::max(1, renderer->GetSize()[1]);
+  view.Pixel[0] = view.IsParallel ? pixel : 0.0;
+  view.Pixel[1] = view.IsParallel ? 0.0 : pixel;
   return true;
 }
 

@@ -48,8 +48,7 @@ void pqHapticsBrush::paint()
     follow->setChecked(false);
     this->Manager->complain("Paint Selection",
       "Cells of data with several blocks cannot be selected by touch. Apply Merge Blocks, and "
-      "touch "
-      "that.");
+      "touch that.");
     return;
   }
   if (port != this->Port || (follow->isChecked() && this->Cells.count(cell) == 0))

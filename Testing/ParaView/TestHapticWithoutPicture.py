@@ -56,10 +56,12 @@ class TestHapticWithoutPicture(unittest.TestCase):
         self.assertGreater(curves.PointData["arc_length"].GetRange()[1], 1.0)
 
     def test_3_a_python_state_restores_the_scene(self):
+        self.hand.set(LandmarkDistance="Along Surface")
         state = smstate.get_state()
         simple.ResetSession()
         exec(compile(state, "state", "exec"), {})
         self.assert_felt_again(haptics.scene())
+        self.assertEqual(haptics.scene().LandmarkDistance, "Along Surface")
 
     def test_4_a_trace_that_begins_late_has_all_that_counts(self):
         smtrace.start_trace()

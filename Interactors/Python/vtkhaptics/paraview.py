@@ -288,7 +288,7 @@ def state_lines():
         return []
     view = hand.View.SMProxy
     view_name = view.GetSessionProxyManager().GetProxyName("views", view)
-    chosen = {name: getattr(hand, name) for name in _IN_STATES}
+    chosen = {name: getattr(hand, name) for name in _kept_in_states(hand.proxy)}
     lines = [
         "",
         "# what was touched",
@@ -310,10 +310,15 @@ def state_lines():
     return lines + [")"]
 
 
-_IN_STATES = (
-    "Device", "Stiffness", "MaximumForce", "Side", "ShowForce", "ShowReadout", "ShowTrail",
-    "WorkspaceTransform",
-)
+def _kept_in_states(proxy):
+    """The values that a state file keeps too."""
+    properties = {name: proxy.SMProxy.GetProperty(name) for name in proxy.ListProperties()}
+    return [
+        name
+        for name, prop in properties.items()
+        if prop and prop.IsA("vtkSMVectorProperty")
+        and not prop.GetInformationOnly() and not prop.IsStateIgnored()
+    ]
 
 
 def _extend_states():

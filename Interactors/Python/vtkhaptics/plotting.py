@@ -51,9 +51,13 @@ class Touch:
     def follow(self):
         """Takes in what the plot shows now, and only that: each picture calls it."""
         shown = [prop for prop in self._renderer.GetViewProps() if _can_be_touched(prop)]
-        for prop in shown:
-            if (prop not in self._surfaces and prop.GetVisibility() and prop.GetPickable()
-                    and not self._is_of_widget(prop)):
+        new = [
+            prop for prop in shown
+            if prop not in self._surfaces and prop.GetVisibility() and prop.GetPickable()
+        ]
+        looks = self._looks_of_widgets() if new else []
+        for prop in new:
+            if not (prop.IsA("vtkActor") and any(prop.GetProperty() is look for look in looks)):
                 self.add(prop)
         present = set(shown)
         for prop in [prop for prop in self._surfaces if prop not in present]:
@@ -66,12 +70,10 @@ class Touch:
                 stand_in.SetPickable(prop.GetPickable())
                 _clip_alike(stand_in, prop)
 
-    def _is_of_widget(self, prop):
-        """Whether an actor is a part of one of PyVista's widgets: it looks as the widget says."""
-        if not prop.IsA("vtkActor"):
-            return False
+    def _looks_of_widgets(self):
+        """What the actors look like that are parts of PyVista's widgets: as their widget says."""
         owner = getattr(self._plotter, "widgets", self._plotter)  # from PyVista 0.48 on
-        looks = [
+        return [
             getattr(widget, name)()
             for attribute, widgets in vars(owner).items()
             if attribute.endswith("_widgets") and isinstance(widgets, list)
@@ -79,7 +81,6 @@ class Touch:
             for name in dir(widget)
             if name.startswith("Get") and name.endswith("Property")
         ]
-        return any(prop.GetProperty() is look for look in looks)
 
     def _take_interrupts(self, interactor):
         """Lets Ctrl-C end the event loop, whoever starts it, and after that the program."""
