@@ -158,7 +158,7 @@ def knot_to_vtp():
         numpy.sin(angles)[:, :, None] * binormals[:, None, :])).reshape(-1, 3)
 
     ids = numpy.arange(sections * corners).reshape(sections, corners)
-    after, beside = numpy.roll(ids, -1, axis=0), numpy.roll(ids, -1, axis=1)
+    after, across = numpy.roll(ids, -1, axis=0), numpy.roll(ids, -1, axis=1)
     both = numpy.roll(after, -1, axis=1)
-    quads = numpy.column_stack([ids.ravel(), beside.ravel(), both.ravel(), after.ravel()])
+    quads = numpy.column_stack([ids.ravel(), across.ravel(), both.ravel(), after.ravel()])
     return _write_vtp(_make_polydata(points, quads))

@@ -139,6 +139,13 @@ bool vtkHapticDevice::HasView()
 
 void vtkHapticDevice::ConnectView(vtkRenderWindowInteractor*, vtkHapticScene*) {}
 
+void vtkHapticDevice::SetPressed(bool) {}
+
+bool vtkHapticDevice::GetPressed()
+{
+  return false;
+}
+
 void vtkHapticDevice::Update()
 {
   if (this->State == Ready && this->Channel->IsLost())

@@ -140,7 +140,7 @@ public:
    * What the device can do. MaximumForce [N] and MaximumStiffness [N/m] are what it can hold
    * without shaking; Damping [N s/m] is the viscous friction of its mechanics, 0 where it is not
    * known. Latency [s] is the time from a force that the servo asks for to the one that the hand
-   * feels, beyond the servo's own period. WorkspaceBounds [m] is (xmin, xmax, ymin, ymax, zmin,
+   * meets, beyond the servo's own period. WorkspaceBounds [m] is (xmin, xmax, ymin, ymax, zmin,
    * zmax), what the hand can reach.
    */
   vtkGetMacro(MaximumForce, double);
@@ -189,6 +189,14 @@ public:
   virtual bool UsesView();
   virtual bool HasView();
   virtual void ConnectView(vtkRenderWindowInteractor* interactor, vtkHapticScene* scene);
+  ///@}
+  ///@{
+  /**
+   * Of a device with UsesView(): whether it presses on the surface, as its held key does. Defaults:
+   * does nothing, no.
+   */
+  virtual void SetPressed(bool pressed);
+  virtual bool GetPressed();
   ///@}
 
   /**

@@ -151,7 +151,7 @@ void CloseFlatTriangles(
     originalCells.push_back(originalCells[index]);
     return true;
   };
-  // Flat triangles can lie beside each other: one closes only when the one across it has.
+  // Flat triangles can be neighbours: one closes only when the one across it has.
   std::size_t before = flat.size() + 1;
   while (flat.size() < before)
   {

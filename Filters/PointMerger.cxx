@@ -33,7 +33,7 @@ std::uint64_t Hash(const Vec3& cell)
 PointMerger::PointMerger(std::size_t expectedPoints, double tolerance)
   : Tolerance(tolerance)
 {
-  this->Kept.reserve(expectedPoints);
+  this->Merged.reserve(expectedPoints);
   std::size_t capacity = 16;
   while (capacity < 2 * expectedPoints)
   {
@@ -57,7 +57,7 @@ std::size_t PointMerger::Slot(const Vec3& cell) const
 {
   const std::size_t mask = this->Table.size() - 1;
   std::size_t slot = Hash(cell) & mask;
-  while (this->Table[slot] >= 0 && this->Cell(this->Kept[this->Table[slot]]) != cell)
+  while (this->Table[slot] >= 0 && this->Cell(this->Merged[this->Table[slot]]) != cell)
   {
     slot = (slot + 1) & mask;
   }
@@ -77,7 +77,7 @@ std::int32_t PointMerger::FindNear(const Vec3& point, const Vec3& cell) const
       double squared = 0.0;
       for (int axis = 0; axis < 3; ++axis)
       {
-        const double difference = this->Kept[i][axis] - point[axis];
+        const double difference = this->Merged[i][axis] - point[axis];
         squared += difference * difference;
       }
       if (squared < limit || (squared == limit && nearest < 0))
@@ -100,13 +100,13 @@ std::int32_t PointMerger::Insert(const Vec3& point)
   {
     return found;
   }
-  if (2 * (this->Kept.size() + 1) > this->Table.size())
+  if (2 * (this->Merged.size() + 1) > this->Table.size())
   {
     this->Grow();
     slot = this->Slot(cell);
   }
-  const auto added = static_cast<std::int32_t>(this->Kept.size());
-  this->Kept.push_back(point);
+  const auto added = static_cast<std::int32_t>(this->Merged.size());
+  this->Merged.push_back(point);
   if (this->Tolerance > 0.0)
   {
     this->Next.push_back(this->Table[slot]);
@@ -123,7 +123,7 @@ void PointMerger::Grow()
   {
     if (first >= 0)
     {
-      this->Table[this->Slot(this->Cell(this->Kept[first]))] = first;
+      this->Table[this->Slot(this->Cell(this->Merged[first]))] = first;
     }
   }
 }

@@ -23,7 +23,7 @@ public:
   /// Index of the kept point that stands for the finite `point`: Points().size() - 1 where it is
   /// new.
   std::int32_t Insert(const Vec3& point);
-  const std::vector<Vec3>& Points() const { return this->Kept; }
+  const std::vector<Vec3>& Points() const { return this->Merged; }
 
 private:
   Vec3 Cell(const Vec3& point) const;
@@ -32,7 +32,7 @@ private:
   void Grow();
 
   double Tolerance;
-  std::vector<Vec3> Kept;
+  std::vector<Vec3> Merged;
   std::vector<std::int32_t> Next;  // the next point of the same cell; unused at tolerance 0
   std::vector<std::int32_t> Table; // hash table, open addressing: first point of a cell, or -1
 };

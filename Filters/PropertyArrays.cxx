@@ -46,7 +46,12 @@ std::string MapArray(vtkDataArray* array, const PropertyMapping& mapping, double
     return problem.str();
   }
   double range[2] = { 0.0, 0.0 };
-  const bool isRanged = mapping.Range && !mapping.Function && FiniteRange(array, range);
+  if (mapping.WholeRange)
+  {
+    std::copy_n(mapping.WholeRange, 2, range);
+  }
+  const bool isRanged =
+    mapping.Range && !mapping.Function && (mapping.WholeRange || FiniteRange(array, range));
   const auto map = [&](double value)
   {
     if (mapping.Function)

@@ -20,6 +20,7 @@ struct PropertyMapping
   vtkPiecewiseFunction* Function = nullptr;   ///< goes first
   vtkPiecewiseFunction* Curve = nullptr;      ///< through the range, both from 0 to 1
   std::optional<std::array<double, 2>> Range; ///< of the property, over the array's own
+  const double* WholeRange = nullptr;         ///< of a patch: the array's in the whole surface
   double Lowest = 0.0;                        ///< what the property may be
   double Highest = 0.0;
   bool CutsOff = false; ///< to Lowest and Highest, in place of the constant

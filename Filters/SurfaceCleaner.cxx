@@ -1,29 +1,36 @@
 #include "haptics/Filters/SurfaceCleaner.h"
 
+#include "haptics/Filters/CellReader.h"
 #include "haptics/Filters/DuplicateTriangles.h"
+#include "haptics/Filters/EqualPoints.h"
 #include "haptics/Filters/FlatTriangles.h"
+#include "haptics/Filters/GhostCells.h"
 #include "haptics/Filters/PointMerger.h"
+#include "haptics/Filters/PointReader.h"
 #include "haptics/Filters/PolygonSplitter.h"
 #include "haptics/Math/AccurateCross.h"
+#include "haptics/Math/LargePages.h"
+#include "haptics/Math/ParallelFor.h"
 
 #include "vtkCellArray.h"
-#include "vtkCellArrayIterator.h"
-#include "vtkDataSetAttributes.h"
 #include "vtkPolyData.h"
-#include "vtkSmartPointer.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <sstream>
+#include <thread>
 #include <utility>
 
 namespace haptics
 {
 namespace
 {
-constexpr vtkIdType CellsPerProgress = 1 << 16;
+/// Cells or points that a thread takes at once.
+constexpr std::size_t PieceSize = 1 << 14;
 constexpr std::int32_t Unused = -1;
 
 /// Of ids that CheckSize() has found to be small enough.
@@ -32,6 +39,66 @@ Triangle ToTriangle(vtkIdType a, vtkIdType b, vtkIdType c)
   return { static_cast<std::int32_t>(a), static_cast<std::int32_t>(b),
     static_cast<std::int32_t>(c) };
 }
+
+/// Writes a number that several threads may write at once, all the same.
+void Mark(std::int32_t& number, std::int32_t value)
+{
+  __atomic_store_n(&number, value, __ATOMIC_RELAXED);
+}
+
+/// Makes `lowest` the lower of the two.
+void Lower(std::atomic<std::size_t>& lowest, std::size_t number)
+{
+  std::size_t known = lowest;
+  while (number < known && !lowest.compare_exchange_weak(known, number))
+  {
+  }
+}
+
+/// What cells that follow on each other become.
+struct Triangulated
+{
+  std::vector<Triangle> Triangles;
+  std::vector<vtkIdType> OriginalCell;   ///< as CleanedMesh
+  std::vector<Triangle> OriginalCorners; ///< as CleanedMesh
+  std::vector<Triangle> Flat; ///< dropped for lack of area, but with three different corners
+  std::int64_t Degenerate = 0;
+  std::int64_t Folded = 0;
+  vtkIdType FirstFolded = -1;
+};
+
+/// Cuts cells into triangles; one thread has one. All that it is given is only read.
+class Triangulator
+{
+public:
+  Triangulator(const std::vector<std::int32_t>& merged, const std::vector<Vec3>& world,
+    const std::vector<Vec3>& local, bool areMerged, PolygonSplitter::GoOnCall goOn)
+    : Merged(merged)
+    , World(world)
+    , Local(local)
+    , AreMerged(areMerged)
+    , GoOn(std::move(goOn))
+  {
+  }
+
+  /// False where the work is to stop.
+  bool AddPolygon(vtkIdType cell, vtkIdType size, const vtkIdType* points);
+  void AddStrip(vtkIdType cell, vtkIdType size, const vtkIdType* points);
+
+  Triangulated Output;
+
+private:
+  void AddTriangle(vtkIdType cell, const Triangle& points);
+
+  const std::vector<std::int32_t>& Merged;
+  const std::vector<Vec3>& World;
+  const std::vector<Vec3>& Local;
+  bool AreMerged;
+  PolygonSplitter::GoOnCall GoOn;
+  PolygonSplitter Splitter;
+  std::vector<std::int32_t> Outline; // input points
+  std::vector<Vec3> Corners;
+};
 
 class Cleaner
 {
@@ -48,21 +115,31 @@ public:
   }
 
   CleaningResult Run();
+  bool Measure(Vec3& low, Vec3& high);
 
 private:
-  template <typename Visitor>
-  bool VisitCells(vtkCellArray* cells, vtkIdType firstCell, Visitor&& visit);
-  bool IsGhost(vtkIdType cell) const;
   bool CheckSize();
-  bool MarkCell(vtkIdType cell, vtkIdType size, const vtkIdType* points);
+  bool MarkCells(const CellReader& cells, vtkIdType firstCell);
+  bool FindBounds(const PointReader& points);
   bool MarkUsedPoints();
+  void TakeFrame();
   bool MergePoints();
-  bool AddPolygon(vtkIdType cell, vtkIdType size, const vtkIdType* points);
-  void AddStrip(vtkIdType cell, vtkIdType size, const vtkIdType* points);
-  void AddTriangle(vtkIdType cell, const Triangle& points);
+  bool MergeNear(double tolerance);
+  bool MergeEqual();
+  bool Triangulate(const CellReader& cells, vtkIdType firstCell, bool areStrips,
+    std::vector<Triangulated>& pieces);
+  void Join(const std::vector<Triangulated>& pieces);
   bool Triangulate();
+  bool HasUnusedPoints() const;
   void DropUnusedPoints();
+  /// Says how far the work is, from the thread that asked for it.
   bool Report(double fraction);
+  /// The work from here on, up to a fraction of all.
+  ProgressCall Until(double fraction)
+  {
+    const double from = this->Fraction;
+    return [=](double share) { return this->Report(from + share * (fraction - from)); };
+  }
   bool Fail(const std::string& text);
 
   vtkPolyData* Input;
@@ -72,18 +149,17 @@ private:
   std::string& Error;
   vtkUnsignedCharArray* Ghosts;
 
-  bool Stopped = false;
+  std::atomic<bool> Stopped{ false };
   double Fraction = 0.0;
   vtkIdType FirstStrip = 0;
+  Vec3 Low{ HUGE_VAL, HUGE_VAL, HUGE_VAL }; // of used points
+  Vec3 High{ -HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
   Vec3 Origin{};
   double Diagonal = 0.0;
   std::int64_t UsedPoints = 0;
   std::vector<std::int32_t> Merged; // for each input point its kept point, or Unused
   std::vector<Vec3> Local;          // kept points relative to Origin
-  std::vector<Triangle> Flat;       // dropped for lack of area, but with three different corners
-  PolygonSplitter Splitter;
-  std::vector<std::int32_t> Outline; // input points
-  std::vector<Vec3> Corners;
+  std::vector<Triangle> Flat;       // of all cells
 };
 
 bool Cleaner::Fail(const std::string& text)
@@ -95,42 +171,11 @@ bool Cleaner::Fail(const std::string& text)
 bool Cleaner::Report(double fraction)
 {
   this->Fraction = fraction;
-  this->Stopped = this->Stopped || (this->Progress && !this->Progress(fraction));
-  return !this->Stopped;
-}
-
-bool Cleaner::IsGhost(vtkIdType cell) const
-{
-  constexpr unsigned char dropped = vtkDataSetAttributes::DUPLICATECELL |
-    vtkDataSetAttributes::REFINEDCELL | vtkDataSetAttributes::HIDDENCELL;
-  return this->Ghosts && cell < this->Ghosts->GetNumberOfValues() &&
-    (this->Ghosts->GetValue(cell) & dropped) != 0;
-}
-
-template <typename Visitor>
-bool Cleaner::VisitCells(vtkCellArray* cells, vtkIdType firstCell, Visitor&& visit)
-{
-  auto iterator = vtk::TakeSmartPointer(cells->NewIterator());
-  vtkIdType size = 0;
-  const vtkIdType* points = nullptr;
-  for (iterator->GoToFirstCell(); !iterator->IsDoneWithTraversal(); iterator->GoToNextCell())
+  if (!this->Stopped && this->Progress && !this->Progress(fraction))
   {
-    const vtkIdType index = iterator->GetCurrentCellId();
-    if (index % CellsPerProgress == CellsPerProgress - 1 && !this->Report(this->Fraction))
-    {
-      return false;
-    }
-    if (this->IsGhost(firstCell + index))
-    {
-      continue;
-    }
-    iterator->GetCurrentCell(size, points);
-    if (!visit(firstCell + index, size, points))
-    {
-      return false;
-    }
+    this->Stopped = true;
   }
-  return true;
+  return !this->Stopped;
 }
 
 bool Cleaner::CheckSize()
@@ -138,7 +183,7 @@ bool Cleaner::CheckSize()
   vtkPolyData* input = this->Input;
   const vtkIdType firstPoly = input->GetNumberOfVerts() + input->GetNumberOfLines();
   this->FirstStrip = firstPoly + input->GetNumberOfPolys();
-  if (input->GetNumberOfPolys() == 0 && input->GetNumberOfStrips() == 0)
+  if (!this->Options.Frame && input->GetNumberOfPolys() == 0 && input->GetNumberOfStrips() == 0)
   {
     std::ostringstream text;
     text << "The input has no polygon and no triangle strip to touch: it has "
@@ -158,59 +203,117 @@ bool Cleaner::CheckSize()
   return true;
 }
 
-bool Cleaner::MarkCell(vtkIdType cell, vtkIdType size, const vtkIdType* points)
+/// Marks the points that cells use, in Merged.
+bool Cleaner::MarkCells(const CellReader& cells, vtkIdType firstCell)
 {
   const auto known = static_cast<vtkIdType>(this->Merged.size());
-  for (vtkIdType i = 0; i < size; ++i)
-  {
-    if (points[i] < 0 || points[i] >= known)
+  const auto isKnown = [known](vtkIdType point) { return point >= 0 && point < known; };
+  std::atomic<std::size_t> bad{ cells.NumberOfCells() };
+  const bool isDone = ParallelFor(
+    cells.NumberOfCells(), PieceSize,
+    [&](std::size_t first, std::size_t last)
     {
-      std::ostringstream text;
-      text << "Cell " << cell << " names point " << points[i] << ", but the input has " << known
-           << " points. Repair the cell array of the source.";
-      return this->Fail(text.str());
-    }
-    this->Merged[points[i]] = 0;
+      std::vector<vtkIdType> memory;
+      vtkIdType size = 0;
+      for (std::size_t cell = first; cell < last; ++cell)
+      {
+        if (IsGhostCell(this->Ghosts, firstCell + static_cast<vtkIdType>(cell)))
+        {
+          continue;
+        }
+        const vtkIdType* const points = cells.At(cell, size, memory);
+        for (vtkIdType i = 0; i < size; ++i)
+        {
+          if (!isKnown(points[i]))
+          {
+            Lower(bad, cell);
+            return;
+          }
+          Mark(this->Merged[static_cast<std::size_t>(points[i])], 0);
+        }
+      }
+    },
+    [this](double) { return this->Report(this->Fraction); });
+  if (isDone && bad < cells.NumberOfCells())
+  {
+    std::vector<vtkIdType> memory;
+    vtkIdType size = 0;
+    const vtkIdType* const points = cells.At(bad, size, memory);
+    std::ostringstream text;
+    text << "Cell " << firstCell + static_cast<vtkIdType>(bad) << " names point "
+         << *std::find_if_not(points, points + size, isKnown) << ", but the input has " << known
+         << " points. Repair the cell array of the source.";
+    return this->Fail(text.str());
   }
-  return true;
+  return isDone;
 }
 
-bool Cleaner::MarkUsedPoints()
+/// Of the used points.
+bool Cleaner::FindBounds(const PointReader& points)
 {
-  this->Merged.assign(this->Input->GetNumberOfPoints(), Unused);
-  const auto mark = [this](vtkIdType cell, vtkIdType size, const vtkIdType* points)
-  { return this->MarkCell(cell, size, points); };
-  if (!this->VisitCells(
-        this->Input->GetPolys(), this->FirstStrip - this->Input->GetNumberOfPolys(), mark) ||
-    !this->VisitCells(this->Input->GetStrips(), this->FirstStrip, mark))
-  {
-    return false;
-  }
-  Vec3 low{ HUGE_VAL, HUGE_VAL, HUGE_VAL };
-  Vec3 high{ -HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
-  for (std::size_t i = 0; i < this->Merged.size(); ++i)
-  {
-    if (this->Merged[i] == Unused)
+  std::mutex mutex;
+  Vec3& low = this->Low;
+  Vec3& high = this->High;
+  std::atomic<std::size_t> bad{ this->Merged.size() };
+  const bool isDone = ParallelFor(
+    this->Merged.size(), PieceSize,
+    [&](std::size_t first, std::size_t last)
     {
-      continue;
-    }
-    ++this->UsedPoints;
-    Vec3 point;
-    this->Input->GetPoint(static_cast<vtkIdType>(i), point.data());
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      if (!(std::abs(point[axis]) < LargestCoordinate)) // as TriangleSurface demands
+      Vec3 lowest{ HUGE_VAL, HUGE_VAL, HUGE_VAL };
+      Vec3 highest{ -HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
+      std::int64_t used = 0;
+      for (std::size_t i = first; i < last; ++i)
       {
-        std::ostringstream text;
-        text << "Point " << i << " is (" << point[0] << ", " << point[1] << ", " << point[2]
-             << "): not finite, or beyond 1e70. It is the first such point. Remove the cells that "
-                "use it, or mend the source that made it.";
-        return this->Fail(text.str());
+        if (this->Merged[i] == Unused)
+        {
+          continue;
+        }
+        ++used;
+        const Vec3 point = points.At(static_cast<vtkIdType>(i));
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          if (!(std::abs(point[axis]) < LargestCoordinate)) // as TriangleSurface demands
+          {
+            Lower(bad, i);
+            return;
+          }
+          lowest[axis] = std::min(lowest[axis], point[axis]);
+          highest[axis] = std::max(highest[axis], point[axis]);
+        }
       }
-      low[axis] = std::min(low[axis], point[axis]);
-      high[axis] = std::max(high[axis], point[axis]);
-    }
+      const std::lock_guard<std::mutex> lock(mutex);
+      this->UsedPoints += used;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        low[axis] = std::min(low[axis], lowest[axis]);
+        high[axis] = std::max(high[axis], highest[axis]);
+      }
+    },
+    [this](double) { return this->Report(this->Fraction); });
+  if (isDone && bad < this->Merged.size())
+  {
+    const Vec3 point = points.At(static_cast<vtkIdType>(bad));
+    std::ostringstream text;
+    text << "Point " << bad << " is (" << point[0] << ", " << point[1] << ", " << point[2]
+         << "): not finite, or beyond 1e70. It is the first such point. Remove the cells that "
+            "use it, or mend the source that made it.";
+    return this->Fail(text.str());
   }
+  this->TakeFrame();
+  return isDone;
+}
+
+void Cleaner::TakeFrame()
+{
+  if (const CleaningFrame* const frame = this->Options.Frame)
+  {
+    this->Origin = frame->Origin;
+    this->Diagonal = frame->Diagonal;
+    this->Cleaned.LargestCoordinate = frame->LargestCoordinate;
+    return;
+  }
+  const Vec3& low = this->Low;
+  const Vec3& high = this->High;
   double squared = 0.0;
   for (int axis = 0; axis < 3 && this->UsedPoints > 0; ++axis)
   {
@@ -220,7 +323,15 @@ bool Cleaner::MarkUsedPoints()
       std::max({ this->Cleaned.LargestCoordinate, std::abs(low[axis]), std::abs(high[axis]) });
   }
   this->Diagonal = std::sqrt(squared);
-  return true;
+}
+
+bool Cleaner::MarkUsedPoints()
+{
+  this->Merged.assign(static_cast<std::size_t>(this->Input->GetNumberOfPoints()), Unused);
+  const vtkIdType firstPolygon = this->FirstStrip - this->Input->GetNumberOfPolys();
+  return this->MarkCells(CellReader(this->Input->GetPolys()), firstPolygon) &&
+    this->MarkCells(CellReader(this->Input->GetStrips()), this->FirstStrip) &&
+    (this->Merged.empty() || this->FindBounds(PointReader(this->Input->GetPoints())));
 }
 
 /// Points are equal where their coordinates relative to the origin are: the surface keeps these,
@@ -230,40 +341,89 @@ bool Cleaner::MergePoints()
   const double tolerance =
     this->Options.MergeTolerance * (this->Options.AbsoluteTolerance ? 1.0 : this->Diagonal);
   this->Cleaned.MergedWithin = tolerance;
+  this->Cleaned.OriginalPoint.reserve(static_cast<std::size_t>(this->UsedPoints));
+  if (!(tolerance > 0.0 ? this->MergeNear(tolerance) : this->MergeEqual()))
+  {
+    return false;
+  }
+  for (vtkIdType cell = 0; this->Ghosts && cell < this->Ghosts->GetNumberOfValues(); ++cell)
+  {
+    this->Cleaned.Report.GhostCells += IsGhostCell(this->Ghosts, cell) ? 1 : 0;
+  }
+  const auto kept = static_cast<std::int64_t>(this->Local.size());
+  this->Cleaned.Report.MergedPoints = this->UsedPoints - kept;
+  this->Cleaned.Report.UnusedPoints =
+    static_cast<std::int64_t>(this->Merged.size()) - this->UsedPoints;
+  return true;
+}
+
+bool Cleaner::MergeNear(double tolerance)
+{
   PointMerger merger(static_cast<std::size_t>(this->UsedPoints), tolerance);
+  const PointReader points(this->Input->GetPoints());
   std::vector<Vec3>& world = this->Cleaned.Mesh.Points;
-  std::vector<vtkIdType>& original = this->Cleaned.OriginalPoint;
-  world.reserve(static_cast<std::size_t>(this->UsedPoints));
-  original.reserve(static_cast<std::size_t>(this->UsedPoints));
+  ReserveLargePages(world, static_cast<std::size_t>(this->UsedPoints));
+  const ProgressCall progress = this->Until(0.7);
   for (std::size_t i = 0; i < this->Merged.size(); ++i)
   {
-    if (i % CellsPerProgress == 0 && !this->Report(this->Fraction))
+    if (i % PieceSize == 0 &&
+      !progress(static_cast<double>(i) / static_cast<double>(this->Merged.size())))
     {
       return false;
     }
     if (this->Merged[i] != Unused)
     {
-      Vec3 point;
-      this->Input->GetPoint(static_cast<vtkIdType>(i), point.data());
+      const Vec3 point = points.At(static_cast<vtkIdType>(i));
       const std::int32_t kept = merger.Insert(
         { point[0] - this->Origin[0], point[1] - this->Origin[1], point[2] - this->Origin[2] });
       this->Merged[i] = kept;
       if (static_cast<std::size_t>(kept) == world.size())
       {
         world.push_back(point);
-        original.push_back(static_cast<vtkIdType>(i));
+        this->Cleaned.OriginalPoint.push_back(static_cast<vtkIdType>(i));
       }
     }
   }
   this->Local = merger.Points();
-  for (vtkIdType cell = 0; this->Ghosts && cell < this->Ghosts->GetNumberOfValues(); ++cell)
-  {
-    this->Cleaned.Report.GhostCells += this->IsGhost(cell) ? 1 : 0;
-  }
-  this->Cleaned.Report.MergedPoints = this->UsedPoints - static_cast<std::int64_t>(world.size());
-  this->Cleaned.Report.UnusedPoints =
-    static_cast<std::int64_t>(this->Merged.size()) - this->UsedPoints;
   return true;
+}
+
+bool Cleaner::MergeEqual()
+{
+  const PointReader points(this->Input->GetPoints());
+  if (!FindEqualPoints(points, this->Origin, this->Merged, this->Until(0.7)))
+  {
+    return false;
+  }
+  // From the first equal input point to the number of the kept point.
+  std::vector<vtkIdType>& original = this->Cleaned.OriginalPoint;
+  for (std::size_t i = 0; i < this->Merged.size(); ++i)
+  {
+    std::int32_t& kept = this->Merged[i];
+    if (kept == static_cast<std::int32_t>(i))
+    {
+      kept = static_cast<std::int32_t>(original.size());
+      original.push_back(static_cast<vtkIdType>(i));
+    }
+    else if (kept != Unused)
+    {
+      kept = this->Merged[kept];
+    }
+  }
+  std::vector<Vec3>& world = this->Cleaned.Mesh.Points;
+  ReserveLargePages(world, original.size());
+  world.resize(original.size());
+  this->Local.resize(original.size());
+  return ParallelFor(original.size(), PieceSize,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t i = first; i < last; ++i)
+      {
+        const Vec3 p = points.At(original[i]);
+        world[i] = p;
+        this->Local[i] = { p[0] - this->Origin[0], p[1] - this->Origin[1], p[2] - this->Origin[2] };
+      }
+    });
 }
 
 /// Whether a triangle has an area that rounding relative to the origin may have lost: the surface
@@ -274,31 +434,29 @@ bool HasAccurateArea(const Vec3& a, const Vec3& b, const Vec3& c)
 }
 
 /// Adds the triangle of three input points.
-void Cleaner::AddTriangle(vtkIdType cell, const Triangle& points)
+void Triangulator::AddTriangle(vtkIdType cell, const Triangle& points)
 {
   const Triangle triangle{ this->Merged[points[0]], this->Merged[points[1]],
     this->Merged[points[2]] };
-  const std::vector<Vec3>& world = this->Cleaned.Mesh.Points;
   if (!HasArea(this->Local[triangle[0]], this->Local[triangle[1]], this->Local[triangle[2]]) &&
-    !HasAccurateArea(world[triangle[0]], world[triangle[1]], world[triangle[2]]))
+    !HasAccurateArea(this->World[triangle[0]], this->World[triangle[1]], this->World[triangle[2]]))
   {
-    ++this->Cleaned.Report.DegenerateTriangles;
+    ++this->Output.Degenerate;
     if (triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0])
     {
-      this->Flat.push_back(triangle);
+      this->Output.Flat.push_back(triangle);
     }
     return;
   }
-  this->Cleaned.Mesh.Triangles.push_back(triangle);
-  this->Cleaned.OriginalCell.push_back(cell);
-  if (this->Cleaned.Report.MergedPoints > 0)
+  this->Output.Triangles.push_back(triangle);
+  this->Output.OriginalCell.push_back(cell);
+  if (this->AreMerged)
   {
-    this->Cleaned.OriginalCorners.push_back(points);
+    this->Output.OriginalCorners.push_back(points);
   }
 }
 
-/// False where the work is to stop.
-bool Cleaner::AddPolygon(vtkIdType cell, vtkIdType size, const vtkIdType* points)
+bool Triangulator::AddPolygon(vtkIdType cell, vtkIdType size, const vtkIdType* points)
 {
   if (size == 3)
   {
@@ -322,7 +480,7 @@ bool Cleaner::AddPolygon(vtkIdType cell, vtkIdType size, const vtkIdType* points
   }
   if (this->Outline.size() < 3)
   {
-    ++this->Cleaned.Report.DegenerateTriangles;
+    ++this->Output.Degenerate;
     return true;
   }
   this->Corners.clear();
@@ -330,31 +488,29 @@ bool Cleaner::AddPolygon(vtkIdType cell, vtkIdType size, const vtkIdType* points
   {
     this->Corners.push_back(this->Local[this->Merged[point]]);
   }
-  const PolygonSplitter::Result result =
-    this->Splitter.Split(this->Corners, [this] { return this->Report(this->Fraction); });
+  const PolygonSplitter::Result result = this->Splitter.Split(this->Corners, this->GoOn);
   if (result == PolygonSplitter::Result::Stopped)
   {
     return false;
   }
-  const std::size_t before = this->Cleaned.OriginalCell.size();
+  const std::size_t before = this->Output.OriginalCell.size();
   for (const PolygonSplitter::LocalTriangle& t : this->Splitter.Triangles())
   {
     this->AddTriangle(cell, { this->Outline[t[0]], this->Outline[t[1]], this->Outline[t[2]] });
   }
-  if (result == PolygonSplitter::Result::Folded && this->Cleaned.OriginalCell.size() > before)
+  if (result == PolygonSplitter::Result::Folded && this->Output.OriginalCell.size() > before)
   {
-    CleaningReport& report = this->Cleaned.Report;
-    report.FirstFoldedCell = report.FoldedPolygons == 0 ? cell : report.FirstFoldedCell;
-    ++report.FoldedPolygons;
+    this->Output.FirstFolded = this->Output.Folded == 0 ? cell : this->Output.FirstFolded;
+    ++this->Output.Folded;
   }
   return true;
 }
 
-void Cleaner::AddStrip(vtkIdType cell, vtkIdType size, const vtkIdType* points)
+void Triangulator::AddStrip(vtkIdType cell, vtkIdType size, const vtkIdType* points)
 {
   if (size < 3)
   {
-    ++this->Cleaned.Report.DegenerateTriangles;
+    ++this->Output.Degenerate;
     return;
   }
   for (vtkIdType i = 0; i + 2 < size; ++i)
@@ -366,29 +522,118 @@ void Cleaner::AddStrip(vtkIdType cell, vtkIdType size, const vtkIdType* points)
   }
 }
 
+bool Cleaner::Triangulate(
+  const CellReader& cells, vtkIdType firstCell, bool areStrips, std::vector<Triangulated>& pieces)
+{
+  const std::size_t firstPiece = pieces.size();
+  pieces.resize(firstPiece + (cells.NumberOfCells() + PieceSize - 1) / PieceSize);
+  const std::thread::id caller = std::this_thread::get_id();
+  // A single polygon may take long: whoever asked for the work is asked meanwhile, on its thread.
+  const auto goOn = [this, caller]
+  {
+    return std::this_thread::get_id() == caller ? this->Report(this->Fraction)
+                                                : !this->Stopped.load();
+  };
+  return ParallelFor(
+           cells.NumberOfCells(), PieceSize,
+           [&](std::size_t first, std::size_t last)
+           {
+             Triangulator triangulator(this->Merged, this->Cleaned.Mesh.Points, this->Local,
+               this->Cleaned.Report.MergedPoints > 0, goOn);
+             triangulator.Output.Triangles.reserve(last - first);
+             triangulator.Output.OriginalCell.reserve(last - first);
+             std::vector<vtkIdType> memory;
+             vtkIdType size = 0;
+             for (std::size_t i = first; i < last; ++i)
+             {
+               const vtkIdType cell = firstCell + static_cast<vtkIdType>(i);
+               if (IsGhostCell(this->Ghosts, cell))
+               {
+                 continue;
+               }
+               const vtkIdType* const points = cells.At(i, size, memory);
+               if (areStrips)
+               {
+                 triangulator.AddStrip(cell, size, points);
+               }
+               else if (!triangulator.AddPolygon(cell, size, points))
+               {
+                 return;
+               }
+             }
+             pieces[firstPiece + first / PieceSize] = std::move(triangulator.Output);
+           },
+           [this](double) { return this->Report(this->Fraction); }) &&
+    !this->Stopped;
+}
+
+/// Puts together what the pieces have become, in the order of their cells.
+void Cleaner::Join(const std::vector<Triangulated>& pieces)
+{
+  std::vector<std::size_t> starts;
+  std::size_t count = 0;
+  CleaningReport& report = this->Cleaned.Report;
+  for (const Triangulated& piece : pieces)
+  {
+    starts.push_back(count);
+    count += piece.Triangles.size();
+    report.DegenerateTriangles += piece.Degenerate;
+    report.FirstFoldedCell =
+      report.FoldedPolygons == 0 ? piece.FirstFolded : report.FirstFoldedCell;
+    report.FoldedPolygons += piece.Folded;
+    this->Flat.insert(this->Flat.end(), piece.Flat.begin(), piece.Flat.end());
+  }
+  ReserveLargePages(this->Cleaned.Mesh.Triangles, count);
+  this->Cleaned.Mesh.Triangles.resize(count);
+  this->Cleaned.OriginalCell.resize(count);
+  this->Cleaned.OriginalCorners.resize(report.MergedPoints > 0 ? count : 0);
+  ParallelFor(pieces.size(), 1,
+    [&](std::size_t i, std::size_t)
+    {
+      const auto copy = [start = starts[i]](const auto& from, auto& to)
+      {
+        if (!from.empty()) // else `to` may be empty too, as where no points are merged
+        {
+          std::copy(from.begin(), from.end(), to.begin() + static_cast<std::ptrdiff_t>(start));
+        }
+      };
+      copy(pieces[i].Triangles, this->Cleaned.Mesh.Triangles);
+      copy(pieces[i].OriginalCell, this->Cleaned.OriginalCell);
+      copy(pieces[i].OriginalCorners, this->Cleaned.OriginalCorners);
+    });
+}
+
 bool Cleaner::Triangulate()
 {
-  vtkCellArray* polys = this->Input->GetPolys();
-  vtkCellArray* strips = this->Input->GetStrips();
-  const auto expected = static_cast<std::size_t>(std::max<vtkIdType>(0,
-    polys->GetNumberOfConnectivityIds() + strips->GetNumberOfConnectivityIds() -
-      2 * (polys->GetNumberOfCells() + strips->GetNumberOfCells())));
-  this->Cleaned.Mesh.Triangles.reserve(expected);
-  this->Cleaned.OriginalCorners.reserve(this->Cleaned.Report.MergedPoints > 0 ? expected : 0);
-  this->Cleaned.OriginalCell.reserve(expected);
-  return this->VisitCells(polys, this->FirstStrip - polys->GetNumberOfCells(),
-           [this](vtkIdType cell, vtkIdType size, const vtkIdType* points)
-           { return this->AddPolygon(cell, size, points); }) &&
-    this->VisitCells(strips, this->FirstStrip,
-      [this](vtkIdType cell, vtkIdType size, const vtkIdType* points)
-      {
-        this->AddStrip(cell, size, points);
-        return true;
-      });
+  const vtkIdType firstPolygon = this->FirstStrip - this->Input->GetNumberOfPolys();
+  std::vector<Triangulated> pieces;
+  if (!this->Triangulate(CellReader(this->Input->GetPolys()), firstPolygon, false, pieces) ||
+    !this->Triangulate(CellReader(this->Input->GetStrips()), this->FirstStrip, true, pieces))
+  {
+    return false;
+  }
+  this->Join(pieces);
+  return true;
+}
+
+/// False where each corner of each cell is one of a triangle.
+bool Cleaner::HasUnusedPoints() const
+{
+  vtkCellArray* const polys = this->Input->GetPolys();
+  const CleaningReport& report = this->Cleaned.Report;
+  return report.DegenerateTriangles + report.DuplicateTriangles + report.GhostCells > 0 ||
+    this->Input->GetNumberOfStrips() > 0 ||
+    static_cast<vtkIdType>(this->Cleaned.Mesh.Triangles.size()) !=
+    polys->GetNumberOfConnectivityIds() - 2 * polys->GetNumberOfCells();
 }
 
 void Cleaner::DropUnusedPoints()
 {
+  if (!this->HasUnusedPoints())
+  {
+    this->Cleaned.KeptPoint = std::move(this->Merged);
+    return;
+  }
   std::vector<Vec3>& points = this->Cleaned.Mesh.Points;
   std::vector<vtkIdType>& original = this->Cleaned.OriginalPoint;
   std::vector<std::int32_t> moved(points.size(), Unused);
@@ -423,11 +668,19 @@ void Cleaner::DropUnusedPoints()
   }
 }
 
+bool Cleaner::Measure(Vec3& low, Vec3& high)
+{
+  const bool isDone = this->CheckSize() && this->MarkUsedPoints();
+  low = this->Low;
+  high = this->High;
+  return isDone;
+}
+
 CleaningResult Cleaner::Run()
 {
   const bool done = this->CheckSize() && this->Report(0.0) && this->MarkUsedPoints() &&
-    this->Report(0.1) && this->MergePoints() && this->Report(0.3) && this->Triangulate() &&
-    this->Report(0.4);
+    this->Report(0.2) && this->MergePoints() && this->Report(0.7) && this->Triangulate() &&
+    this->Report(1.0);
   if (!done)
   {
     return this->Stopped ? CleaningResult::Aborted : CleaningResult::Failed;
@@ -446,7 +699,7 @@ CleaningResult Cleaner::Run()
     this->Cleaned.Mesh, this->Cleaned.OriginalCell, this->Cleaned.OriginalCorners);
   this->DropUnusedPoints();
   const CleaningReport& report = this->Cleaned.Report;
-  if (this->Cleaned.Mesh.Triangles.empty())
+  if (!this->Options.Frame && this->Cleaned.Mesh.Triangles.empty())
   {
     std::ostringstream text;
     text << "None of the " << this->Input->GetNumberOfPolys() << " polygons and "
@@ -462,6 +715,16 @@ CleaningResult Cleaner::Run()
   }
   return CleaningResult::Done;
 }
+}
+
+bool MeasureUsedPoints(vtkPolyData* input, Vec3& low, Vec3& high, std::string& error)
+{
+  CleaningOptions options;
+  const CleaningFrame none; // a part may be empty
+  options.Frame = &none;
+  const ProgressCall progress;
+  CleanedMesh cleaned;
+  return Cleaner(input, options, progress, cleaned, error).Measure(low, high);
 }
 
 CleaningResult CleanSurface(vtkPolyData* input, const CleaningOptions& options,

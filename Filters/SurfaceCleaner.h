@@ -1,12 +1,14 @@
 #ifndef Haptics_SurfaceCleaner_h
 #define Haptics_SurfaceCleaner_h
 
+#include "haptics/Filters/PatchRecord.h"
+#include "haptics/Math/ProgressCall.h"
 #include "haptics/Surface/TriangleSurface.h"
 
+#include "vtkHapticsFiltersModule.h"
 #include "vtkType.h"
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,9 @@ struct CleaningOptions
   double MergeTolerance = 0.0;    ///< finite, >= 0
   bool AbsoluteTolerance = false; ///< in world units; otherwise a fraction of the bounds' diagonal
   const std::vector<Side>* CellSides = nullptr; ///< one a cell of the input; null: none
+  /// Of the surface that the input is a part of; null: it is the whole, and what has no triangle
+  /// fails.
+  const CleaningFrame* Frame = nullptr;
 };
 
 /// What was found and mended on the way from cells to clean triangles.
@@ -56,13 +61,17 @@ enum class CleaningResult
   Aborted
 };
 
-/// Called with the progress from 0 to 1; false stops the work.
-using ProgressCall = std::function<bool(double)>;
+/// The bounds of the points that cells which count use: of no cell low is above high. False and
+/// `error` where there is something that cannot be touched.
+VTKHAPTICSFILTERS_EXPORT bool MeasureUsedPoints(
+  vtkPolyData* input, Vec3& low, Vec3& high, std::string& error);
 
 /// Turns the polygons and strips of `input` into clean triangles; its verts and lines are left out.
-/// On failure `error` says what is wrong, where, and what to do. Reads `input` only.
-CleaningResult CleanSurface(vtkPolyData* input, const CleaningOptions& options,
-  const ProgressCall& progress, CleanedMesh& cleaned, std::string& error);
+/// On failure `error` says what is wrong, where, and what to do. Reads `input` only, by as many
+/// threads as the machine has cores.
+VTKHAPTICSFILTERS_EXPORT CleaningResult CleanSurface(vtkPolyData* input,
+  const CleaningOptions& options, const ProgressCall& progress, CleanedMesh& cleaned,
+  std::string& error);
 }
 
 #endif

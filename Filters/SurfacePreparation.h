@@ -2,6 +2,7 @@
 #define Haptics_SurfacePreparation_h
 
 #include "haptics/Filters/BuildKey.h"
+#include "haptics/Filters/PatchRecord.h"
 #include "haptics/Filters/SurfaceCleaner.h"
 #include "haptics/Surface/TriangleSurface.h"
 
@@ -11,6 +12,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,6 +46,9 @@ std::string CheckSideArray(vtkDataArray* array, bool isOfCells, vtkPolyData* inp
 /// Made, read and destroyed on the GUI thread; Run() may be on any thread, once. Meanwhile the GUI
 /// thread leaves the object alone. Run() reads the input's points, cells and ghost array, and
 /// makes VTK objects of its own; it neither keeps nor lets go of any that another thread knows.
+///
+/// Where the input is a patch of a surface, which its field data say (PatchRecord), so is the
+/// result, and its ids count the whole surface's cells and points.
 class VTKHAPTICSFILTERS_EXPORT SurfacePreparation
 {
 public:
@@ -64,6 +69,13 @@ public:
   /// Run() but for Surface(), which is null. False elsewhere, also where a coordinate is not
   /// finite: call Run(), which reports it. On any thread, once.
   bool Follow(std::vector<Vec3>& points);
+
+  /// Before Run(): of a patch whose surface is that of an earlier patch in another shape, its
+  /// points come from there within `duration` [s], where that can be: no triangle has lost its
+  /// area, no points have come to be one, and the engine is not the exact one.
+  void DeformOver(double duration) { this->DeformDuration = duration; }
+  /// The record of a patch; null where it is none.
+  const PatchRecord* PatchOf() const { return this->Patch.get(); }
 
   CleaningResult Run(const ProgressCall& progress);
   /// Lets go of the input's points, and of the geometry given to FollowOn().
@@ -91,7 +103,8 @@ public:
   std::shared_ptr<const TriangleSurface> Surface() const { return this->Built; }
   const CleaningReport& Report() const { return this->Found; }
   double CrackWidth() const { return this->CrackWidthInUse; } ///< [world unit]
-  vtkIdTypeArray* OriginalCells() const; ///< for each triangle the input's cell
+  /// For each triangle the input's cell; of a patch the cell of the whole surface.
+  vtkIdTypeArray* OriginalCells() const;
   ///@}
 
 private:
@@ -101,6 +114,9 @@ private:
     std::vector<Triangle> Triangles;
     std::vector<Triangle> Originals;
   };
+  std::string NumberTriangles(CleanedMesh& cleaned) const;
+  bool FindStarts(const CleanedMesh& cleaned, std::vector<Vec3>& starts) const;
+
   enum class Cells
   {
     Unknown,
@@ -127,9 +143,18 @@ private:
   vtkSmartPointer<vtkCellArray> CleanTriangles;
   vtkSmartPointer<vtkIdTypeArray> PointIds;
   vtkSmartPointer<vtkIdTypeArray> CellIds;
-  std::shared_ptr<const CleanedCorners> Corners;         ///< null where no points were merged
-  std::shared_ptr<const std::vector<std::int32_t>> Kept; ///< for each input point, as CleanedMesh
-  double MergedWithin = 0.0;                             ///< [world unit]
+  std::shared_ptr<const CleanedCorners> Corners; ///< null where no points were merged
+  std::shared_ptr<const std::vector<std::int32_t>>
+    PointMap;                ///< for each input point, as CleanedMesh
+  double MergedWithin = 0.0; ///< [world unit]
+  ///@{
+  /// Of a patch; null elsewhere.
+  std::shared_ptr<const PatchRecord> Patch;
+  vtkSmartPointer<vtkIdTypeArray> WholeCells;   ///< of the input's cells
+  vtkSmartPointer<vtkIdTypeArray> WholeCellIds; ///< of the triangles
+  vtkSmartPointer<vtkDataArray> StartPoints;    ///< PatchRecord::StartPoints
+  std::optional<double> DeformDuration;
+  ///@}
   std::shared_ptr<const SurfacePreparation> Earlier;
   Cells CellsOfEarlier = Cells::Other;
 };

@@ -58,6 +58,7 @@ void SetNoValue(vtkDataSetAttributes* values, vtkIdType tick)
 TouchedArrays::TouchedArrays(
   vtkPolyData* prepared, const std::vector<std::string>& names, vtkIdType ticks)
   : Prepared(prepared)
+  , Names(names)
 {
   Choose(prepared->GetPointData(), names, prepared->GetNumberOfPoints(), this->PointSource);
   Choose(prepared->GetCellData(), names, prepared->GetNumberOfCells(), this->CellSource);
@@ -73,6 +74,34 @@ TouchedArrays::TouchedArrays(
 }
 
 TouchedArrays::~TouchedArrays() = default;
+
+bool TouchedArrays::Continue(vtkPolyData* prepared)
+{
+  const auto list = [this]
+  {
+    std::vector<std::string> found;
+    for (vtkDataSetAttributes* const data :
+      { static_cast<vtkDataSetAttributes*>(this->PointSource.Get()),
+        static_cast<vtkDataSetAttributes*>(this->CellSource.Get()) })
+    {
+      for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+      {
+        vtkAbstractArray* const array = data->GetAbstractArray(i);
+        found.push_back(std::to_string(array->GetDataType()) + " " +
+          std::to_string(array->GetNumberOfComponents()) + " " + array->GetName());
+      }
+      found.emplace_back();
+    }
+    return found;
+  };
+  const std::vector<std::string> before = list();
+  this->Prepared = prepared;
+  this->PointSource->Initialize();
+  this->CellSource->Initialize();
+  Choose(prepared->GetPointData(), this->Names, prepared->GetNumberOfPoints(), this->PointSource);
+  Choose(prepared->GetCellData(), this->Names, prepared->GetNumberOfCells(), this->CellSource);
+  return list() == before;
+}
 
 void TouchedArrays::Add(vtkIdType tick, vtkIdType triangle, const Vec3& weights)
 {

@@ -32,6 +32,9 @@ public:
 
   /// The names that no array has.
   const std::vector<std::string>& Missing() const { return this->MissingNames; }
+  /// From here on the surface is `prepared`, another patch of it. False where that has other
+  /// arrays.
+  bool Continue(vtkPolyData* prepared);
   /// A tick that touches `triangle`, or none where that is -1. Each tick once, in order.
   void Add(vtkIdType tick, vtkIdType triangle, const Vec3& weights);
   /// Adds the arrays; one whose name is taken comes as "Surface" and its name.
@@ -44,6 +47,7 @@ private:
   vtkNew<vtkPointData> PointValues;
   vtkNew<vtkCellData> CellValues;
   vtkNew<vtkIdList> Ids;
+  std::vector<std::string> Names;
   std::vector<std::string> MissingNames;
 };
 }

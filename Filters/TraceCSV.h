@@ -16,8 +16,8 @@ namespace haptics
 /// it, which marks it as text there.
 VTKHAPTICSFILTERS_EXPORT std::string CSVField(const std::string& text);
 
-/// One value of an array as such a field, a number with as many digits as tell it from every other
-/// one of its type.
+/// One value of an array as such a field, a number with as many digits as distinguish it from every
+/// other one of its type.
 VTKHAPTICSFILTERS_EXPORT std::string CSVValue(
   vtkAbstractArray* array, vtkIdType tuple, int component);
 

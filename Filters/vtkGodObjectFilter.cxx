@@ -38,7 +38,7 @@ public:
   std::string SaidOfSides;
   std::string SaidOfSideValues;
 
-  /// The array that the filter is told to take for something.
+  /// The array that is chosen for a purpose.
   static vtkHapticProperties::ChosenArray Choose(
     vtkGodObjectFilter* filter, int index, vtkPolyData* geometry);
 };
@@ -266,7 +266,9 @@ int vtkGodObjectFilter::RequestData(
 
 bool vtkGodObjectFilter::IsEmpty(vtkPolyData* input)
 {
-  return input->GetNumberOfPoints() == 0 && input->GetNumberOfCells() == 0;
+  // A patch can be empty: then nothing is there.
+  return input->GetNumberOfPoints() == 0 && input->GetNumberOfCells() == 0 &&
+    !haptics::PatchRecord::ReadFrom(input->GetFieldData());
 }
 
 /// Keeps the arrays' names, so that what comes after this filter finds them.

@@ -3,7 +3,7 @@
  * @brief   turns any vtkPolyData into clean triangles that can be touched
  *
  * Takes polygons with any number of corners (convex or concave, planar or nearly so), triangle
- * strips, and mixtures of these; verts and lines beside them are left out, and so are ghost and
+ * strips, and mixtures of these; verts and lines among them are left out, and so are ghost and
  * blanked cells. Equal points become one, triangles without area and duplicates are dropped, and
  * where a triangle without area joined a corner to a longer edge, that edge is split there. The
  * output has triangles only, in the world frame and unit of the input, with:
@@ -28,7 +28,7 @@
  *
  * Which side of each cell is touched, an array of the input can say: see SetSide().
  *
- * How the surface feels, by constants and by arrays of the input, is the business of
+ * The material of the surface, by constants and by arrays of the input, is set by
  * GetProperties() and SetInputArrayToProcess().
  *
  * An input without points and cells (a contour of a value that does not occur, an empty threshold
@@ -149,7 +149,7 @@ public:
 
   ///@{
   /**
-   * @brief The widest gap between facets that still feels closed [world unit].
+   * @brief The widest gap between facets that still counts as closed [world unit].
    * With AutomaticCrackWidth (default on) it is 2^-21 of the largest absolute coordinate for points
    * stored as float32, which is eight times their rounding, and 0 for float64; CrackWidth is then
    * ignored. CrackWidth: default 0, range 0 to 1e100, other values are clamped.
@@ -163,8 +163,8 @@ public:
 
   ///@{
   /**
-   * @brief How the surface feels. Never null; none by default; null sets a new one. The arrays that
-   * it maps are chosen by SetInputArrayToProcess(), with the indices of
+   * @brief The material of the surface. Never null; none by default; null sets a new one. The
+   * arrays that it maps are chosen by SetInputArrayToProcess(), with the indices of
    * vtkHapticProperties::PropertyType. A change does not build the surface anew.
    */
   void SetProperties(vtkHapticProperties* properties);

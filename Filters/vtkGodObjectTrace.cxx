@@ -3,10 +3,12 @@
 #include "haptics/Filters/ErrorText.h"
 #include "haptics/Filters/LengthUnit.h"
 #include "haptics/Filters/NumberSetting.h"
+#include "haptics/Filters/PatchRecord.h"
 #include "haptics/Filters/TouchedArrays.h"
 #include "haptics/Filters/TraceCSV.h"
 #include "haptics/Filters/TraceRecorder.h"
 #include "vtkGodObjectFilter.h"
+#include "vtkHapticPatchAlgorithm.h"
 #include "vtkHapticProperties.h"
 
 #include "haptics/Contact/GodObject.h"
@@ -23,6 +25,7 @@
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkMath.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -107,13 +110,11 @@ bool vtkGodObjectTrace::WriteCSV(const char* file)
 }
 
 /// Of a surface that nobody has given a scale: what is in millimetres is taken for metres.
-void vtkGodObjectTrace::WarnOfSize(vtkPolyData* surface)
+void vtkGodObjectTrace::WarnOfSize(double size)
 {
   constexpr double largest = 2.0;
   constexpr double smallest = 1e-3;
   constexpr double reach = 0.1; // [m] of a common desktop device
-  const double size =
-    surface->GetNumberOfCells() > 0 ? vtkBoundingBox(surface->GetBounds()).GetMaxLength() : 0.0;
   const double inHand = size * this->ScaleInUse();
   const bool isOdd =
     this->WorldToDeviceScale == 0.0 && size > 0.0 && !(inHand >= smallest && inHand <= largest);
@@ -136,6 +137,36 @@ void vtkGodObjectTrace::WarnOfSize(vtkPolyData* surface)
     vtkWarningMacro(<< text.str());
   }
   this->HasWarnedOfSize = isOdd;
+}
+
+void vtkGodObjectTrace::SetTipRadius(double radius)
+{
+  if (!(radius >= 0.0) || !std::isfinite(radius))
+  {
+    vtkErrorMacro("The radius of the tip must be finite and not below 0 m, but is "
+      << radius << "; it stays " << this->TipRadius << " m.");
+    return;
+  }
+  if (this->TipRadius != radius)
+  {
+    this->TipRadius = radius;
+    this->Modified();
+  }
+}
+
+bool vtkGodObjectTrace::CheckTip(vtkGodObjectFilter* prepared)
+{
+  const double size =
+    prepared->GetSurface() ? prepared->GetSurface()->Diagonal() * this->ScaleInUse() : 0.0;
+  if (size > 0.0 && this->TipRadius > 0.5 * size)
+  {
+    vtkErrorMacro("A tip with a radius of "
+      << this->TipRadius << " m is larger than the surface, which has a size of " << size
+      << " m in the hand. Give SetTipRadius() at most " << 0.5 * size
+      << " m, or SetWorldToDeviceScale() the metres in the hand for one world unit.");
+    return false;
+  }
+  return true;
 }
 
 void vtkGodObjectTrace::SetTickPeriod(double value)
@@ -225,7 +256,7 @@ void vtkGodObjectTrace::KeepSurfaceError(vtkObject*, unsigned long, void* text)
 
 vtkGodObjectFilter* vtkGodObjectTrace::PrepareSurface(vtkPolyData* surface)
 {
-  vtkGodObjectFilter* upstream = FindPreparation(this, 1);
+  vtkGodObjectFilter* upstream = this->Source ? nullptr : FindPreparation(this, 1);
   this->SurfaceError.clear();
   if (upstream && upstream->GetSurface() &&
     upstream->GetOutput()->GetPoints() == surface->GetPoints() &&
@@ -251,6 +282,11 @@ vtkGodObjectFilter* vtkGodObjectTrace::PrepareSurface(vtkPolyData* surface)
   {
     geometry->CopyStructure(surface);
     geometry->GetCellData()->AddArray(surface->GetCellGhostArray());
+    geometry->GetCellData()->AddArray(
+      surface->GetCellData()->GetArray(haptics::PatchRecord::CellIds));
+    geometry->GetPointData()->AddArray(
+      surface->GetPointData()->GetArray(haptics::PatchRecord::PointIds));
+    geometry->SetFieldData(surface->GetFieldData());
   }
   this->Preparation->SetInputData(geometry);
   this->Preparation->Update();
@@ -296,6 +332,25 @@ int vtkGodObjectTrace::RequestData(
                   "polygons or strips.");
     return 1;
   }
+  this->Source = vtkHapticPatchAlgorithm::SafeDownCast(this->GetInputAlgorithm(1, 0));
+  if (this->Source)
+  {
+    vtkHapticPatchAlgorithm* const source = this->Source;
+    double first[3];
+    path->GetPoint(0, first);
+    if (this->LoadPatch(first, first))
+    {
+      double bounds[6];
+      source->GetSurfaceBounds(bounds);
+      this->WarnOfSize(vtkBoundingBox(bounds).GetMaxLength());
+      if (this->CheckTip(this->Preparation))
+      {
+        this->Replay(path, this->Preparation, output);
+      }
+    }
+    this->Source = nullptr;
+    return 1;
+  }
   vtkGodObjectFilter* const upstream = FindPreparation(this, 1);
   if (upstream && !upstream->GetSurface() &&
     !vtkGodObjectFilter::IsEmpty(vtkPolyData::SafeDownCast(upstream->GetInput())))
@@ -314,25 +369,108 @@ int vtkGodObjectTrace::RequestData(
   {
     vtkErrorMacro(<< "The surface at port 1: " << this->SurfaceError);
   }
-  this->WarnOfSize(prepared->GetOutput());
+  vtkPolyData* const touched = prepared->GetOutput();
+  this->WarnOfSize(
+    touched->GetNumberOfCells() > 0 ? vtkBoundingBox(touched->GetBounds()).GetMaxLength() : 0.0);
+  if (!this->CheckTip(prepared))
+  {
+    return 1;
+  }
   this->Replay(path, prepared, output);
   return 1;
+}
+
+std::unique_ptr<haptics::GodObject> vtkGodObjectTrace::MakeGodObject(vtkGodObjectFilter* prepared)
+{
+  std::vector<haptics::TouchedSurface> surfaces;
+  if (prepared->GetSurface())
+  {
+    surfaces.push_back({ prepared->GetSurface(), nullptr, prepared->GetSurfaceProperties() });
+    surfaces.back().Identity = 1;
+  }
+  auto god = std::make_unique<haptics::GodObject>(
+    std::move(surfaces), this->TipRadius > 0.0 ? haptics::Tip::Ball : haptics::Tip::Point);
+  god->SetSubstepLimit(this->SubstepLimit);
+  god->SetTipRadius(this->TipRadius / this->ScaleInUse());
+  return god;
+}
+
+/// Prepares what is near a god-object and its HIP. False, and an error, where that fails.
+bool vtkGodObjectTrace::LoadPatch(const double position[3], const double hip[3])
+{
+  vtkNew<vtkPolyData> patch;
+  if (!this->Source->Survey())
+  {
+    return false;
+  }
+  const double lag = std::sqrt(vtkMath::Distance2BetweenPoints(position, hip));
+  haptics::PatchRegion region;
+  std::copy_n(position, 3, region.From.begin());
+  std::copy_n(hip, 3, region.To.begin());
+  region.Radius = this->Source->GetPatchRadiusInUse() + lag + this->TipRadius / this->ScaleInUse();
+  if (!this->Source->MakePatch(region, patch))
+  {
+    return false;
+  }
+  vtkGodObjectFilter* const prepared = this->PrepareSurface(patch);
+  if (!prepared->GetSurface())
+  {
+    vtkErrorMacro(<< "The surface at port 1 cannot be touched. " << this->SurfaceError);
+    return false;
+  }
+  if (!this->SurfaceError.empty())
+  {
+    vtkErrorMacro(<< "The surface at port 1: " << this->SurfaceError);
+  }
+  return true;
+}
+
+/// Where the surface comes in patches: another one, where the HIP is about to leave the last. False
+/// where that fails.
+bool vtkGodObjectTrace::FollowWithPatch(
+  const double hip[3], std::unique_ptr<haptics::GodObject>& god)
+{
+  const haptics::SurfacePatch* const patch =
+    this->Source ? this->Preparation->GetSurface()->Patch() : nullptr;
+  if (!patch)
+  {
+    return true;
+  }
+  const haptics::Vec3& origin = patch->Whole().Origin;
+  const haptics::Vec3 here = god->Current().Position;
+  const haptics::Vec3 local{ hip[0] - origin[0], hip[1] - origin[1], hip[2] - origin[2] };
+  const double lag = std::sqrt(vtkMath::Distance2BetweenPoints(here.data(), hip));
+  const double left = patch->Region().Radius - patch->Region().DistanceTo(local) - lag -
+    this->TipRadius / this->ScaleInUse();
+  if (left > 0.5 * this->Source->GetPatchRadiusInUse())
+  {
+    return true;
+  }
+  if (!this->LoadPatch(here.data(), hip))
+  {
+    return false;
+  }
+  auto next = this->MakeGodObject(this->Preparation);
+  next->Continue(*god);
+  god = std::move(next);
+  return true;
 }
 
 void vtkGodObjectTrace::Replay(vtkPolyData* path, vtkGodObjectFilter* prepared, vtkPolyData* output)
 {
   const vtkIdType ticks = path->GetNumberOfPoints();
-  vtkIdTypeArray* const originalCells = vtkIdTypeArray::SafeDownCast(
-    prepared->GetOutput()->GetCellData()->GetAbstractArray("OriginalCellId"));
-  vtkIdTypeArray* const originalPoints = vtkIdTypeArray::SafeDownCast(
-    prepared->GetOutput()->GetPointData()->GetAbstractArray("OriginalPointId"));
-  vtkNew<vtkIdList> corners;
-  std::vector<haptics::TouchedSurface> surfaces;
-  if (prepared->GetSurface())
+  vtkIdTypeArray* originalCells = nullptr;
+  vtkIdTypeArray* originalPoints = nullptr;
+  const auto findIds = [&]
   {
-    surfaces.push_back({ prepared->GetSurface(), nullptr, prepared->GetSurfaceProperties() });
-  }
-  haptics::GodObject godObject(std::move(surfaces));
+    originalCells = vtkIdTypeArray::SafeDownCast(
+      prepared->GetOutput()->GetCellData()->GetAbstractArray("OriginalCellId"));
+    originalPoints = vtkIdTypeArray::SafeDownCast(
+      prepared->GetOutput()->GetPointData()->GetAbstractArray("OriginalPointId"));
+  };
+  findIds();
+  vtkNew<vtkIdList> corners;
+  std::unique_ptr<haptics::GodObject> godObject = this->MakeGodObject(prepared);
   haptics::WorkspaceTransform deviceToWorld;
   deviceToWorld.Scale = 1.0 / this->ScaleInUse();
   haptics::ContactTick tick;
@@ -366,11 +504,26 @@ void vtkGodObjectTrace::Replay(vtkPolyData* path, vtkGodObjectFilter* prepared, 
     }
     haptics::Vec3 hip;
     path->GetPoint(i, hip.data());
+    const haptics::GodObject* const before = godObject.get();
+    if (i > 0 && !this->FollowWithPatch(hip.data(), godObject)) // it is placed by the first HIP
+    {
+      return;
+    }
+    if (godObject.get() != before)
+    {
+      findIds();
+      if (touched && !touched->Continue(prepared->GetOutput()))
+      {
+        vtkErrorMacro("The surface at port 1 has other data arrays in one piece than in another. "
+                      "Give all pieces the same, or call PassSurfaceArraysOff().");
+        return;
+      }
+    }
     const haptics::Contact& contact =
-      tick.Touch(godObject, deviceToWorld.VectorToDevice(hip), hip, deviceToWorld);
+      tick.Touch(*godObject, deviceToWorld.VectorToDevice(hip), hip, deviceToWorld);
     const haptics::Vec3 force = law.Update(contact, this->TickPeriod, this->Stiffness, limits);
     record.Time = static_cast<double>(i) * this->TickPeriod;
-    tick.Record(godObject, force, law, record);
+    tick.Record(*godObject, force, law, record);
     heldTicks += record.Status == haptics::UpdateStatus::Overloaded ? 1 : 0;
     refusedTicks += record.Status == haptics::UpdateStatus::InvalidHip ? 1 : 0;
     const bool isHeld = record.NumberOfConstraints > 0;
@@ -431,6 +584,8 @@ void vtkGodObjectTrace::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "UnitLength: " << this->UnitLength << " m\n";
   os << indent << "WorldToDeviceScale: " << this->WorldToDeviceScale << " m\n";
   os << indent << "TickPeriod: " << this->TickPeriod << " s\n";
+  os << indent << "SubstepLimit: " << this->SubstepLimit << "\n";
+  os << indent << "TipRadius: " << this->TipRadius << " m\n";
   os << indent << "PassSurfaceArrays: " << (this->PassSurfaceArrays ? "On" : "Off");
   for (const std::string& name : this->SurfaceArrays)
   {

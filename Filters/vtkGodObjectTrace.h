@@ -15,7 +15,7 @@
  *
  * - `Time` [s]: the path's own where it has such an array, else by the tick period;
  * - `HapticInterfacePoint` (3): the HIP [world];
- * - `Force` (3): what the hand would feel [N], along the world's axes; see haptics::SurfaceForce;
+ * - `Force` (3): the force on the hand [N], along the world's axes; see haptics::SurfaceForce;
  * - `ActiveConstraints`: how many planes hold the god-object back, 0 to 3;
  * - `Surface`: 0, and -1 in free space;
  * - `OriginalCellId`: the cell touched, -1 in free space. Of several, the one that pushes most. It
@@ -35,6 +35,9 @@
  *
  * Arrays have their unit in their information, as vtkDataArray::UNITS_LABEL(); lengths do where
  * SetUnitLength() says which it is.
+ *
+ * Where port 1 comes from a vtkHapticPatchAlgorithm, the surface need not fit in memory: patches of
+ * it are made as the path goes on, and the trace is that over the whole surface.
  *
  * A surface without points and cells is nothing to touch: the whole path is in free space.
  *
@@ -58,11 +61,18 @@
 #include "vtkNew.h" // for vtkNew
 #include "vtkPolyDataAlgorithm.h"
 
+#include <memory> // for std::unique_ptr
 #include <string> // for std::string
 #include <vector> // for std::vector
 
 class vtkGodObjectFilter;
+class vtkHapticPatchAlgorithm;
 class vtkHapticProperties;
+
+namespace haptics
+{
+class GodObject;
+}
 
 class VTKHAPTICSFILTERS_EXPORT vtkGodObjectTrace : public vtkPolyDataAlgorithm
 {
@@ -109,7 +119,7 @@ public:
 
   ///@{
   /**
-   * @brief Metres in the device frame for one world unit [m]. Default 0: the surface is felt in its
+   * @brief Metres in the device frame for one world unit [m]. Default 0: the surface has its
    * true size, by UnitLength, or as if in metres where that is not known. Range as of UnitLength.
    *
    * A surface that is more than 2 m or less than 1 mm across by that default is a warning, once: a
@@ -126,6 +136,33 @@ public:
    */
   void SetTickPeriod(double value);
   vtkGetMacro(TickPeriod, double);
+  ///@}
+
+  ///@{
+  /**
+   * In how many substeps a tick may follow the HIP's straight way since the tick before: 1 to 16;
+   * other values are clamped. Default 1: off; 4 are enough nearly everywhere. A tick has more than
+   * one only where what holds the god-object changes on the way and leads it elsewhere, as on rough
+   * ground and in folds: there one coarse step can end in another valley than a hand that moves
+   * slowly. Each costs about as much as a tick; a ball goes in one. All guarantees of
+   * haptics::GodObject hold, whatever the limit.
+   */
+  vtkSetClampMacro(SubstepLimit, int, 1, 16);
+  vtkGetMacro(SubstepLimit, int);
+  ///@}
+
+  ///@{
+  /**
+   * @brief The radius of the tip in the device frame [m]: the god-object is a ball about the HIP,
+   * see haptics::GodObject::SetTipRadius(). Default 0: a point. Finite and >= 0; any other value is
+   * an error, and the last one stays. One larger than half of the surface in the hand is an error
+   * of Update(), and the output is empty.
+   *
+   * The output's points are the ball's centres; `BarycentricWeights` and the surface's arrays are
+   * those of the place that it touches. With a tip, SubstepLimit has no effect.
+   */
+  void SetTipRadius(double radius);
+  vtkGetMacro(TipRadius, double);
   ///@}
 
   ///@{
@@ -149,9 +186,9 @@ public:
   bool WriteCSV(const char* file);
 
   /**
-   * @brief How a surface feels that does not come from a vtkGodObjectFilter; one that does has that
-   * filter's properties. Never null; none by default. The arrays that it maps are those of port 1,
-   * chosen by SetInputArrayToProcess() of this class.
+   * @brief The material of a surface that does not come from a vtkGodObjectFilter; one that does
+   * has that filter's properties. Never null; none by default. The arrays that it maps are those of
+   * port 1, chosen by SetInputArrayToProcess() of this class.
    */
   vtkHapticProperties* GetProperties();
   vtkMTimeType GetMTime() override;
@@ -181,11 +218,16 @@ private:
   void KeepSurfaceError(vtkObject* caller, unsigned long event, void* text);
   vtkGodObjectFilter* PrepareSurface(vtkPolyData* surface);
   bool CheckPath(vtkPolyData* path);
+  bool CheckTip(vtkGodObjectFilter* prepared);
   double ScaleInUse() const;
-  void WarnOfSize(vtkPolyData* surface);
+  void WarnOfSize(double size);
+  bool LoadPatch(const double position[3], const double hip[3]);
+  bool FollowWithPatch(const double hip[3], std::unique_ptr<haptics::GodObject>& god);
+  std::unique_ptr<haptics::GodObject> MakeGodObject(vtkGodObjectFilter* prepared);
   void Replay(vtkPolyData* path, vtkGodObjectFilter* prepared, vtkPolyData* output);
 
   vtkNew<vtkGodObjectFilter> Preparation;
+  vtkHapticPatchAlgorithm* Source = nullptr; // of patches, while a path is followed; else null
   std::string SurfaceError; // of Preparation, which this class passes on as its own
   double Stiffness = 500.0;
   double MaximumForce = 3.3;
@@ -193,6 +235,8 @@ private:
   double WorldToDeviceScale = 0.0;
   bool HasWarnedOfSize = false; // of the surface that is there
   double TickPeriod = 0.001;
+  int SubstepLimit = 1; // haptics::GodObject::DefaultSubstepLimit
+  double TipRadius = 0.0;
   bool PassSurfaceArrays = true;
   std::vector<std::string> SurfaceArrays; // empty: all
 };

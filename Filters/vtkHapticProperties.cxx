@@ -2,6 +2,7 @@
 
 #include "haptics/Filters/DataPoints.h"
 #include "haptics/Filters/NumberSetting.h"
+#include "haptics/Filters/PatchRecord.h"
 #include "haptics/Filters/PropertyArrays.h"
 
 #include "vtkDataArray.h"
@@ -271,6 +272,8 @@ std::shared_ptr<const haptics::SurfaceProperties> vtkHapticProperties::Build(vtk
     {
       field.IsPerTriangle = chosen.IsPerCell;
       const haptics::PropertyMapping mapping{ source.Function, source.Curve, source.Range,
+        haptics::PatchRecord::RangeIn(
+          geometry->GetFieldData(), chosen.IsPerCell, chosen.Array->GetName()),
         Facts[i].Lowest, Facts[i].Highest, i == TEXTURE };
       const std::size_t wanted =
         chosen.IsPerCell ? surface.Triangles().size() : values.NumberOfPointValues;

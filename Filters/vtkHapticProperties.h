@@ -1,6 +1,6 @@
 /**
  * @class   vtkHapticProperties
- * @brief   how a surface feels: stiffness, damping, friction, texture, shading, from data or
+ * @brief   the material of a surface: stiffness, damping, friction, texture, shading, from data or
  * constant
  *
  * Every vtkGodObjectFilter has one, and so has every surface of a vtkHapticScene. Each of the five
@@ -21,10 +21,11 @@
  * Errors: an array that is not there, has another size or more than one component is reported, and
  * the constant is used; where a single value is not finite or, after the mapping, out of range,
  * that place has the constant, and the first such place is reported. Textures are cut off at their
- * bounds. Nothing jumps in the hand: a change is felt no faster than the safety lets a force grow.
+ * bounds. No force jumps: a change acts no faster than the safety lets a force grow,
+ * and what softens under the hand does so over vtkHapticSafety's SoftStartTime.
  *
  * No property makes energy; haptics::SurfaceForce says how, and what that means for the hand. All
- * are in the device frame: they feel the same at any scale. The default is none: the scene's
+ * are in the device frame: they give the same forces at any scale. The default is none: the scene's
  * stiffness and nothing else, which costs nothing.
  *
  * All methods are for the GUI thread.
@@ -185,7 +186,7 @@ public:
   ///@{
   /**
    * @brief Whether the force follows normals that are interpolated over the triangles, so that
-   * facets feel round. Default off.
+   * facets seem round to the hand. Default off.
    */
   vtkSetMacro(ForceShading, bool);
   vtkGetMacro(ForceShading, bool);

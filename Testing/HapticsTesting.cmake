@@ -2,7 +2,7 @@
 #
 #   haptics_add_gtest(<name> <source>... LIBRARIES <target>... [SERIAL] [FIXTURE <fixture>])
 #     A GoogleTest program; ctest shows each of its cases as <name>.<suite>.<case>.
-#     SERIAL: nothing else runs beside it, for tests that measure time. FIXTURE: what has to run
+#     SERIAL: nothing else runs at the same time, for tests that measure time. FIXTURE: what has to run
 #     before, by the name in that test's FIXTURES_SETUP.
 #
 #   haptics_add_python_test(<name> <script> [ARGS <arg>...] [PVPYTHON] [SERIAL] [FIXTURE <fixture>])
@@ -90,6 +90,13 @@ function (haptics_add_consumer_test)
   add_test(NAME Consumer.Install
     COMMAND "${CMAKE_COMMAND}" "-DBUILD=${CMAKE_BINARY_DIR}" "-DPREFIX=${prefix}"
             -P "${CMAKE_CURRENT_SOURCE_DIR}/Consumer/TestInstall.cmake")
+  add_test(NAME Consumer.InstalledTree
+    COMMAND "${Python3_EXECUTABLE}" -B "${CMAKE_CURRENT_SOURCE_DIR}/Consumer/TestInstalledTree.py"
+            "${prefix}" "${PROJECT_SOURCE_DIR}" "${CMAKE_BINARY_DIR}"
+            "$<BOOL:${HAPTICS_BUILD_PARAVIEW_PLUGIN}>")
+  set_tests_properties(Consumer.InstalledTree PROPERTIES
+    FIXTURES_REQUIRED haptics_install
+    LABELS            "haptics")
   add_test(NAME Consumer.BuildAndRun
     COMMAND "${CMAKE_CTEST_COMMAND}"
       --build-and-test "${CMAKE_CURRENT_SOURCE_DIR}/Consumer"

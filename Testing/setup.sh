@@ -5,7 +5,7 @@ set -eu
 usage()
 {
   cat <<'END'
-Usage: sh Testing/setup.sh [--vtk] [--tests] [--slow] [--ci] [--packages] [--help]
+Usage: sh Testing/setup.sh [--vtk] [--tests] [--slow] [--ci] [--strict] [--packages] [--help]
 
 Installs the packages that are missing (Debian 12, 13 and 14; with sudo where not root), configures
 and builds into build/, and leaves build/env.sh to source. What is done already is not done again.
@@ -16,6 +16,8 @@ and builds into build/, and leaves build/env.sh to source. What is done already 
   --tests build the tests too, and install what they need
   --slow  install what the slow tests need as well: a virtual machine for the USB driver
   --ci    install what .ci/tidy and .ci/sanitizers need as well: clang, for the fuzz targets
+  --strict
+          warnings are errors, in a build that is configured anew
   --packages
           end there, before anything is configured
 END
@@ -24,6 +26,7 @@ END
 cd "$(dirname "$0")/.."
 preset=paraview
 tests=
+strict=
 more=
 packages_only=
 for argument in "$@"; do
@@ -31,6 +34,7 @@ for argument in "$@"; do
     --vtk) preset=vtk ;;
     --tests) tests=yes ;;
     --slow|--ci) more="$more Testing/packages-${argument#--}.txt" ;;
+    --strict) strict=-DCMAKE_COMPILE_WARNING_AS_ERROR=ON ;;
     --packages) packages_only=yes ;;
     -h|--help) usage; exit 0 ;;
     *) echo "setup.sh: unknown argument '$argument'" >&2; usage >&2; exit 2 ;;
@@ -122,7 +126,7 @@ install_packages()
       apt-get update
       apt-get install --no-install-recommends --no-remove $(echo $missing)
 
-    and run this again. (0.6 to 0.8 GB are downloaded; installed and built they take 4 to 5 GB.)
+    and run this again. (0.6 to 1.3 GB are downloaded; installed and built they take 4 to 6 GB.)
 END
     [ $preset = vtk ] ||
       echo "    Without the ParaView plugin fewer are needed: --vtk names them." >&2
@@ -210,13 +214,13 @@ plugin=OFF
 [ $preset = paraview ] && plugin=ON
 if [ -f build/CMakeCache.txt ] &&
   ! grep -qx "HAPTICS_BUILD_PARAVIEW_PLUGIN:[A-Z]*=$plugin" build/CMakeCache.txt; then
-  say "build/ was of the other kind: configuring it anew"
-  rm -rf build/CMakeCache.txt build/CMakeFiles build/build.ninja
+  say "build/ was of the other kind: configuring it anew" # objects that are the same stay
+  rm -f build/CMakeCache.txt build/build.ninja
 fi
 if [ ! -f build/build.ninja ] || [ CMakePresets.json -nt build/build.ninja ] ||
   [ -n "$new_packages" ]; then
   say "Configuring (preset $preset; log: build/configure.log)"
-  if ! run_logged build/configure.log cmake --preset "$preset"; then
+  if ! run_logged build/configure.log cmake --preset "$preset" $strict; then
     cat build/configure.log >&2
     echo "==> Configuring failed: the first error above names what is missing." >&2
     exit 1

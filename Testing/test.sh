@@ -42,7 +42,7 @@ done
 
 sh Testing/setup.sh --tests $setup_arguments
 
-# Open MPI, which pvserver and pvpython start, refuses to run as root (as in a container) unless told.
+# Open MPI, which pvserver and pvpython start, refuses to run as root (as in a container) unless allowed.
 if [ "$(id -u)" -eq 0 ]; then
   export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 fi
@@ -56,11 +56,15 @@ if [ -z "${DISPLAY:-}" ]; then
   fi
 fi
 
+# In the background a shell has these two ignored, and all that it starts too: tests send them.
+signals='env --default-signal=INT,QUIT'
+$signals true 2>/dev/null || signals=
+
 echo "==> Testing${display:+ on a virtual display}"
 status=0
 report=build/Testing/report.xml
 rm -f "$report"
-eval "$display" ctest --test-dir build --output-on-failure --no-label-summary --no-tests=error \
+eval "$display" $signals ctest --test-dir build --output-on-failure --no-label-summary --no-tests=error \
   -j "$(nproc)" --output-junit "$PWD/$report" $configuration '"$@"' || status=$?
 [ ! -f "$report" ] || /usr/bin/python3 Testing/list_skips.py "$report"
 if [ "$status" -ne 0 ]; then

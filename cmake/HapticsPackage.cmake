@@ -3,6 +3,12 @@
 include(CMakePackageConfigHelpers)
 
 set(haptics_package_dir "${CMAKE_BINARY_DIR}/${haptics_cmake_destination}")
+# Links of this build's own (haptics_find_vtk()) are nobody else's: who uses the package makes his.
+set(haptics_vtk_dir "${VTK_DIR}")
+string(FIND "${VTK_DIR}" "${CMAKE_BINARY_DIR}/" haptics_at)
+if (haptics_at EQUAL 0)
+  set(haptics_vtk_dir)
+endif ()
 configure_file("${CMAKE_CURRENT_LIST_DIR}/VTKHapticsConfig.cmake.in"
   "${haptics_package_dir}/VTKHapticsConfig.cmake" @ONLY)
 write_basic_package_version_file("${haptics_package_dir}/VTKHapticsConfigVersion.cmake"
@@ -17,7 +23,8 @@ install(
   DESTINATION "${haptics_cmake_destination}")
 # The documents lie as in the sources, so that their links lead somewhere.
 set(haptics_doc_destination "${CMAKE_INSTALL_DATAROOTDIR}/doc/vtkhaptics")
-install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${haptics_doc_destination}")
+install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/CITATION.cff"
+  DESTINATION "${haptics_doc_destination}")
 file(GLOB haptics_documents RELATIVE "${PROJECT_SOURCE_DIR}" CONFIGURE_DEPENDS
   "${PROJECT_SOURCE_DIR}/*.md"
   "${PROJECT_SOURCE_DIR}/*/README.md"
@@ -27,7 +34,10 @@ file(GLOB haptics_documents RELATIVE "${PROJECT_SOURCE_DIR}" CONFIGURE_DEPENDS
   "${PROJECT_SOURCE_DIR}/Testing/Consumer/CMakeLists.txt"
   "${PROJECT_SOURCE_DIR}/Testing/Consumer/*.cxx"
   "${PROJECT_SOURCE_DIR}/Interactors/Python/examples/*.*"
-  "${PROJECT_SOURCE_DIR}/Plugin/examples/*.*")
+  "${PROJECT_SOURCE_DIR}/Plugin/docs/*.*"
+  "${PROJECT_SOURCE_DIR}/Plugin/Qt/*.png"
+  "${PROJECT_SOURCE_DIR}/Plugin/examples/*.*"
+  "${PROJECT_SOURCE_DIR}/packaging/*.md")
 foreach (document IN LISTS haptics_documents)
   cmake_path(GET document PARENT_PATH folder)
   install(FILES "${PROJECT_SOURCE_DIR}/${document}"

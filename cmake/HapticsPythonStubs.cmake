@@ -1,4 +1,4 @@
-# Type stubs (.pyi) of the compiled Python modules, made beside them where VTK brings its generator:
+# Type stubs (.pyi) of the compiled Python modules, made next to them where VTK brings its generator:
 # Debian's VTK 9.1 does not.
 #
 #   haptics_add_python_stubs(<folder of the package> <install destination>)

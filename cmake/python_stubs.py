@@ -7,7 +7,7 @@ checker can resolve: those names are completed here, and their modules imported.
 to its classes (vtkhaptics.classes) is added too, and arrays are taken for vectors.
 
 Where VTK has come without stubs of its own, as Debian's has, those of the modules that are needed are
-written to vtkmodules-stubs beside OUTPUT_FOLDER, where checkers look for them (PEP 561).
+written to vtkmodules-stubs next to OUTPUT_FOLDER, where checkers look for them (PEP 561).
 """
 
 import os

@@ -27,7 +27,7 @@ struct DriverStopped
 /// What a device can do, as it reports itself or its maker documents it.
 struct DriverLimits
 {
-  std::string Name;                  ///< model and serial number, for people
+  std::string Name;                  ///< model and serial number
   double MaximumForce = 0.0;         ///< [N]
   double MaximumStiffness = 0.0;     ///< [N/m]
   std::array<double, 6> Workspace{}; ///< xmin, xmax, ymin, ymax, zmin, zmax [m], device frame

@@ -23,7 +23,7 @@ constexpr std::chrono::seconds LongestFarewell{ 2 };
 
 /// What the thread works with; shared, so that one that hangs in a vendor's library can be given
 /// up.
-class DriverThread::Session : public DriverContext
+class DriverThread::Session final : public DriverContext
 {
 public:
   Session(std::unique_ptr<DeviceDriver> driver, double forceLimit, bool reconnects)
@@ -96,23 +96,23 @@ public:
 
 private:
   /// Lets go of the device however its session ends.
-  class Parting
+  class SessionEnd
   {
   public:
-    Parting(DeviceDriver& driver, ForceLink& link)
+    SessionEnd(DeviceDriver& driver, ForceLink& link)
       : Driver(driver)
       , Link(link)
     {
     }
-    ~Parting()
+    ~SessionEnd()
     {
       this->Link.Up.store(false, std::memory_order_release);
       this->Driver.Close();
       this->Link.Over.store(true, std::memory_order_release);
       this->Link.Bell.Ring();
     }
-    Parting(const Parting&) = delete;
-    Parting& operator=(const Parting&) = delete;
+    SessionEnd(const SessionEnd&) = delete;
+    SessionEnd& operator=(const SessionEnd&) = delete;
 
   private:
     DeviceDriver& Driver;
@@ -129,7 +129,7 @@ private:
         this->Status.Link = link;
       }
       std::optional<ForceExchange> exchange; // outlives the driver's use of it
-      const Parting parting(*this->Driver, *link);
+      const SessionEnd sessionEnd(*this->Driver, *link);
       this->Driver->Open(*this);
       this->CheckStop();
       exchange.emplace(link, this->GetStatus().Limits.MaximumForce);

@@ -1,6 +1,7 @@
 #include "haptics/Devices/Driver/ForceExchange.h"
 
-#include <chrono>
+#include "haptics/Devices/MonotonicClock.h"
+
 #include <cmath>
 #include <utility>
 
@@ -9,24 +10,19 @@ namespace haptics
 namespace
 {
 constexpr std::int64_t CommandTimeout = 20000000; // [ns]
-
-std::int64_t Now() noexcept
-{
-  return std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
-}
 }
 
 ForceExchange::ForceExchange(std::shared_ptr<ForceLink> link, double maximumForce)
   : Link(std::move(link))
   , MaximumForce(maximumForce)
-  , RenewedAt(Now() - CommandTimeout)
+  , RenewedAt(MonotonicNow() - CommandTimeout)
 {
 }
 
 std::array<double, 3> ForceExchange::NextForce() noexcept
 {
   const std::uint64_t halts = this->Link->Halts.load(std::memory_order_acquire);
-  const std::int64_t now = Now();
+  const std::int64_t now = MonotonicNow();
   if (this->Link->Demands.Update())
   {
     this->RenewedAt = now;

@@ -2,7 +2,7 @@
  * @class   vtkDriverHapticDevice
  * @brief   a device that a thread of its own exchanges with, a thousand times a second
  *
- * What the drivers of devices that people own have in common; each of them is a class derived from
+ * What the drivers of commercial devices have in common; each of them is a class derived from
  * it:
  *
  *     Closed -> Opening -> Homing -> Ready -> Faulted, Closed
@@ -13,7 +13,7 @@
  * a servo runs (see haptics::EmergencyStop). After a fault the next force grows softly from zero.
  *
  * Limits are those that the device reports or its maker documents, and the stiffness that its
- * damping allows; nobody publishes that, so Damping is 1 N s/m, an assumption with which 360 N/m
+ * damping allows; no maker publishes that, so Damping is 1 N s/m, an assumption with which 360 N/m
  * are allowed at 1 kHz and the stated latency of 2 ms. See Devices/README.md, *Before you trust a
  * new device*.
  *

@@ -137,7 +137,7 @@ std::vector<std::uint8_t> ReadFirmwareFile(const std::string& path)
     throw FalconFault("The firmware file " + path + " cannot be opened: " + std::strerror(errno) +
       ". Set FirmwareFile to the image that came with the device.");
   }
-  // No more is read than tells that it is too large.
+  // No more is read than shows that it is too large.
   std::vector<std::uint8_t> bytes(LargestFirmware + 1);
   file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   bytes.resize(static_cast<std::size_t>(file.gcount()));

@@ -24,7 +24,7 @@ void PrepareExchange(FalconUsb& usb);
 std::vector<std::uint8_t> ReadFirmwareFile(const std::string& path);
 
 /// Wakes the boot loader, sends the firmware, compares every echo, and readies the chip again.
-/// Whether the firmware runs only an exchange can tell. `progress` gets the share sent, 0 to 1.
+/// Only an exchange can show whether the firmware runs. `progress` gets the share sent, 0 to 1.
 void LoadFirmware(FalconUsb& usb, const std::vector<std::uint8_t>& firmware,
   const std::function<void(double)>& progress);
 }

@@ -23,7 +23,8 @@ const char* FalconChannel::GetProblem() const noexcept
       return "No new position of the Falcon came for 0.2 s: the machine is too busy. Relieve it, "
              "or let the program have real-time priority, then open the device again.";
     case Problem::ImpossiblePose:
-      return "The Falcon's encoders tell a pose that its arms cannot take, so its origin is wrong. "
+      return "The Falcon's encoders report a pose that its arms cannot take, so its origin is "
+             "wrong. "
              "Close it, open it and home it again.";
     default:
       return "";

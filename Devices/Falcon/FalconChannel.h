@@ -23,8 +23,8 @@ public:
   FalconChannel(std::shared_ptr<FalconLink> link, double torqueScale, double maximumForce);
   ~FalconChannel() override;
 
-  /// Why Read() returned false, for people; empty where it did not, and where the transport ended
-  /// the session and tells why. Any thread.
+  /// Why Read() returned false, in a sentence; empty where it did not, and where the transport
+  /// ended the session and reports the cause. Any thread.
   const char* GetProblem() const noexcept;
 
 protected:

@@ -1,5 +1,7 @@
 #include "haptics/Devices/Falcon/FalconExchange.h"
 
+#include "haptics/Devices/MonotonicClock.h"
+
 #include <algorithm>
 #include <chrono>
 #include <thread>
@@ -8,7 +10,6 @@ namespace haptics
 {
 namespace
 {
-using Clock = std::chrono::steady_clock;
 using std::chrono::nanoseconds;
 
 const char* const Doing = "exchanging packets with it";
@@ -20,11 +21,6 @@ constexpr std::int64_t LongestHiccup = 140 * Millisecond; // [ns]; FalconChannel
 constexpr int ProbeTries = 5;                             // of ReplyTimeout each
 constexpr int FailuresInARow = 5;                         // 0.1 s without a reply
 constexpr unsigned int FarewellTimeout = 50;              // [ms]
-
-std::int64_t Now()
-{
-  return std::chrono::duration_cast<nanoseconds>(Clock::now().time_since_epoch()).count();
-}
 
 }
 
@@ -66,7 +62,7 @@ bool FalconExchange::ReadOnce(FalconReply& reply, std::int64_t rest)
 FalconExchange::Outcome FalconExchange::TryOnce(const FalconCommand& command, FalconReply& reply)
 {
   const FalconPacket packet = Encode(command);
-  const std::int64_t start = Now();
+  const std::int64_t start = MonotonicNow();
   const std::uint64_t malformed = this->Reader.GetNumberOfMalformed();
   bool heard = false;
   const bool pushes = command.Torques != decltype(command.Torques){};
@@ -78,14 +74,14 @@ FalconExchange::Outcome FalconExchange::TryOnce(const FalconCommand& command, Fa
   ++this->Unanswered;
   while (!heard && this->Reader.GetNumberOfMalformed() == malformed)
   {
-    const std::int64_t rest = ReplyTimeout - (Now() - start);
+    const std::int64_t rest = ReplyTimeout - (MonotonicNow() - start);
     if (rest <= 0)
     {
       break;
     }
     heard = this->ReadOnce(reply, rest);
   }
-  this->Age = Now() - start;
+  this->Age = MonotonicNow() - start;
   const int written = this->Out.Wait();
   if (written != LIBUSB_TRANSFER_TIMED_OUT)
   {
@@ -113,17 +109,17 @@ FalconExchange::Outcome FalconExchange::TryOnce(const FalconCommand& command, Fa
 void FalconExchange::WaitForLateReplies(std::int64_t deadline)
 {
   FalconReply late;
-  std::int64_t last = Now();
+  std::int64_t last = MonotonicNow();
   while (this->Unanswered > 0)
   {
-    const std::int64_t rest = std::min(last + QuietTime, deadline) - Now();
+    const std::int64_t rest = std::min(last + QuietTime, deadline) - MonotonicNow();
     if (rest <= 0)
     {
       break;
     }
     if (this->ReadOnce(late, rest))
     {
-      last = Now();
+      last = MonotonicNow();
     }
   }
   this->Unanswered = 0;
@@ -138,7 +134,7 @@ bool FalconExchange::IsAnswered()
     const Outcome outcome = this->TryOnce(FalconCommand(), reply);
     if (outcome != Outcome::Silent)
     {
-      this->WaitForLateReplies(Now() + LongestHiccup);
+      this->WaitForLateReplies(MonotonicNow() + LongestHiccup);
       return true;
     }
     this->Reader.Clear();
@@ -149,7 +145,7 @@ bool FalconExchange::IsAnswered()
 
 FalconReply FalconExchange::Exchange(FalconCommand command)
 {
-  const std::int64_t deadline = Now() + LongestHiccup;
+  const std::int64_t deadline = MonotonicNow() + LongestHiccup;
   FalconReply reply;
   Outcome outcome = this->TryOnce(command, reply);
   if (outcome == Outcome::Answered)
@@ -173,7 +169,7 @@ FalconReply FalconExchange::Exchange(FalconCommand command)
     {
       this->WaitForLateReplies(deadline);
     }
-    if (Now() >= deadline)
+    if (MonotonicNow() >= deadline)
     {
       throw FalconFault("The Falcon's replies come more than " +
         std::to_string(ReplyTimeout / Millisecond) +
@@ -185,7 +181,7 @@ FalconReply FalconExchange::Exchange(FalconCommand command)
 
 void FalconExchange::WaitForNextTick()
 {
-  const std::int64_t now = Now();
+  const std::int64_t now = MonotonicNow();
   this->NextTick = std::max(this->NextTick + Period, now - Period); // no burst after a delay
   if (this->NextTick > now)
   {
@@ -197,14 +193,14 @@ void FalconExchange::Home(const std::function<void(std::uint8_t)>& progress)
 {
   FalconCommand command;
   command.Leds = FalconLedRed;
-  int told = -1;
-  while (told != FalconAllHomed)
+  int reported = -1;
+  while (reported != FalconAllHomed)
   {
     this->Usb.CheckStop();
     const FalconReply reply = this->Exchange(command);
-    if (reply.HomedLegs != told)
+    if (reply.HomedLegs != reported)
     {
-      told = reply.HomedLegs;
+      reported = reply.HomedLegs;
       progress(reply.HomedLegs);
     }
     this->WaitForNextTick();
@@ -215,12 +211,12 @@ void FalconExchange::Serve(double commandTimeout, const std::function<void()>& r
 {
   const auto tooOld = static_cast<std::int64_t>(commandTimeout * 1e9);
   FalconCommand command;
-  std::int64_t renewed = Now() - tooOld;
+  std::int64_t renewed = MonotonicNow() - tooOld;
   bool withdrawn = true;
   while (true)
   {
     this->Usb.CheckStop();
-    const std::int64_t start = Now();
+    const std::int64_t start = MonotonicNow();
     const std::uint64_t halts = this->Link.Halts.load(std::memory_order_acquire);
     if (this->Link.Demands.Update())
     {
@@ -248,7 +244,7 @@ void FalconExchange::Serve(double commandTimeout, const std::function<void()>& r
       throw FalconFault("The Falcon lost its origin, as it does when its power fails for a moment. "
                         "Check its power supply, then open and home it again.");
     }
-    this->Link.Times.Add(static_cast<double>(Now() - start) * 1e-9);
+    this->Link.Times.Add(static_cast<double>(MonotonicNow() - start) * 1e-9);
     this->Link.Answers.Publish({ reply, this->Releases, static_cast<double>(this->Age) * 1e-9 });
     this->Link.Bell.Ring();
     if (!this->Link.Up.exchange(true, std::memory_order_acq_rel))

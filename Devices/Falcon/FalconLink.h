@@ -10,7 +10,7 @@
 
 namespace haptics
 {
-/// What the device told, and what the servo is to know of how it came.
+/// What the device reported, and how the answer came.
 struct FalconAnswer
 {
   FalconReply Reply;

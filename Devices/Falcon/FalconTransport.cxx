@@ -17,15 +17,15 @@ constexpr int UploadTries = 3;
 constexpr int HotplugCheck = 20; // [ms]
 
 /// Says farewell to a device that was opened and lets go of it, however its session ends.
-class Parting
+class SessionEnd
 {
 public:
-  Parting(FalconUsb& usb, FalconLink& link)
+  SessionEnd(FalconUsb& usb, FalconLink& link)
     : Usb(usb)
     , Link(link)
   {
   }
-  ~Parting()
+  ~SessionEnd()
   {
     this->Link.Up.store(false, std::memory_order_release);
     this->Usb.SetStoppable(false);
@@ -37,7 +37,7 @@ public:
       }
       catch (const FalconFault&)
       {
-        // Gone or stuck: why the session ended is told already, and says as much.
+        // Gone or stuck: why the session ended is reported already, and says as much.
       }
     }
     this->Usb.Close();
@@ -45,8 +45,8 @@ public:
     this->Link.Over.store(true, std::memory_order_release);
     this->Link.Bell.Ring();
   }
-  Parting(const Parting&) = delete;
-  Parting& operator=(const Parting&) = delete;
+  SessionEnd(const SessionEnd&) = delete;
+  SessionEnd& operator=(const SessionEnd&) = delete;
 
 private:
   FalconUsb& Usb;
@@ -95,7 +95,7 @@ void FalconTransport::ChangeStatus(Change change)
   change(this->Status);
 }
 
-void FalconTransport::Tell(DevicePhase phase, const std::string& text)
+void FalconTransport::Report(DevicePhase phase, const std::string& text)
 {
   this->ChangeStatus(
     [&](FalconStatus& status)
@@ -114,11 +114,11 @@ void FalconTransport::Run()
   }
   catch (const FalconFault& fault)
   {
-    this->Tell(DevicePhase::Faulted, fault.what());
+    this->Report(DevicePhase::Faulted, fault.what());
   }
   catch (const FalconStopped&)
   {
-    // Asked for: there is nothing to tell.
+    // Asked for: there is nothing to report.
   }
 }
 
@@ -136,7 +136,7 @@ void FalconTransport::RunSessions()
     }
     catch (const FalconFault& fault)
     {
-      this->Tell(DevicePhase::Faulted, fault.what());
+      this->Report(DevicePhase::Faulted, fault.what());
     }
     do
     {
@@ -160,17 +160,18 @@ void FalconTransport::Session(FalconUsb& usb)
       status.Link = link;
     });
   usb.Open(this->Settings.DeviceIndex);
-  const Parting parting(usb, *link);
+  const SessionEnd sessionEnd(usb, *link);
   FalconExchange exchange(usb, *link);
   this->BringUp(usb, exchange);
-  exchange.Home([this](std::uint8_t homed) { this->Tell(DevicePhase::Homing, HomingText(homed)); });
+  exchange.Home(
+    [this](std::uint8_t homed) { this->Report(DevicePhase::Homing, HomingText(homed)); });
   exchange.Serve(this->Settings.CommandTimeout,
-    [this] { this->Tell(DevicePhase::Ready, "The Falcon is ready."); });
+    [this] { this->Report(DevicePhase::Ready, "The Falcon is ready."); });
 }
 
 void FalconTransport::BringUp(FalconUsb& usb, FalconExchange& exchange)
 {
-  this->Tell(DevicePhase::Opening, "Setting up the Falcon.");
+  this->Report(DevicePhase::Opening, "Setting up the Falcon.");
   FalconBoot::PrepareExchange(usb);
   if (exchange.IsAnswered())
   {
@@ -190,7 +191,7 @@ void FalconTransport::Upload(FalconUsb& usb, FalconExchange& exchange)
     FalconBoot::ReadFirmwareFile(this->Settings.FirmwareFile);
   for (int attempt = 1;; ++attempt)
   {
-    this->Tell(DevicePhase::LoadingFirmware,
+    this->Report(DevicePhase::LoadingFirmware,
       "Loading the Falcon's firmware, attempt " + std::to_string(attempt) + " of " +
         std::to_string(UploadTries) + ".");
     try

@@ -27,11 +27,11 @@ struct FalconSettings
   double CommandTimeout = 0.02; ///< [s] after which a torque that nobody renewed is withdrawn
 };
 
-/// What a Falcon's thread tells.
+/// What a Falcon's thread reports.
 struct FalconStatus
 {
   DevicePhase Phase = DevicePhase::Opening;
-  std::string Text;          ///< for people: what goes on, what is wrong, what to do
+  std::string Text;          ///< in a sentence: what goes on, what is wrong, what to do
   double Progress = 0.0;     ///< of the firmware upload, 0 to 1
   unsigned int Arrivals = 0; ///< Falcons seen plugged in so far
   bool RealTime = false;     ///< whether the thread got real-time priority
@@ -72,7 +72,7 @@ private:
   void Upload(FalconUsb& usb, FalconExchange& exchange);
   template <typename Change>
   void ChangeStatus(Change change);
-  void Tell(DevicePhase phase, const std::string& text);
+  void Report(DevicePhase phase, const std::string& text);
 
   const FalconSettings Settings;
   std::atomic<bool> Stop{ false };

@@ -1,5 +1,7 @@
 #include "haptics/Devices/Falcon/FalconUsb.h"
 
+#include "haptics/Devices/FormerUser.h"
+
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -226,34 +228,50 @@ void FalconUsb::Open(int index)
       : "There is no Novint Falcon number " + std::to_string(index) + ": " +
         std::to_string(devices.size()) + " plugged in, counted from 0. Set another DeviceIndex.";
   }
-  else
+  const auto unref = [](libusb_device* device) { libusb_unref_device(device); };
+  const std::unique_ptr<libusb_device, decltype(unref)> device(
+    problem.empty() ? libusb_ref_device(devices[static_cast<std::size_t>(index)]) : nullptr, unref);
+  std::for_each(devices.begin(), devices.end(), libusb_unref_device);
+  if (device)
   {
-    libusb_device* device = devices[static_cast<std::size_t>(index)];
-    int error = libusb_open(device, &this->Device);
-    if (error == LIBUSB_SUCCESS)
-    {
-      // Not supported means that there are no kernel drivers to detach.
-      libusb_set_auto_detach_kernel_driver(this->Device, 1);
-      error = libusb_claim_interface(this->Device, Interface);
-    }
-    if (error == LIBUSB_SUCCESS)
-    {
-      std::array<char, 32> file{};
-      std::snprintf(file.data(), file.size(), "/dev/bus/usb/%03d/%03d",
-        libusb_get_bus_number(device), libusb_get_device_address(device));
-      this->Guardian.Start(this->GuardianProgram, file.data());
-    }
+    int error = LIBUSB_SUCCESS;
+    WaitForFormerUser(*this,
+      [&]
+      {
+        error = this->Claim(device.get());
+        return error != LIBUSB_ERROR_BUSY;
+      });
     if (error != LIBUSB_SUCCESS)
     {
-      problem = ExplainOpening(error, device);
+      problem = ExplainOpening(error, device.get());
     }
   }
-  std::for_each(devices.begin(), devices.end(), libusb_unref_device);
   if (!problem.empty())
   {
-    this->Close();
     throw FalconFault(problem);
   }
+}
+
+/// LIBUSB_SUCCESS, or why the device could not be had.
+int FalconUsb::Claim(libusb_device* device)
+{
+  int error = libusb_open(device, &this->Device);
+  if (error == LIBUSB_SUCCESS)
+  {
+    // Not supported means that there are no kernel drivers to detach.
+    libusb_set_auto_detach_kernel_driver(this->Device, 1);
+    error = libusb_claim_interface(this->Device, Interface);
+  }
+  if (error != LIBUSB_SUCCESS)
+  {
+    this->Close();
+    return error;
+  }
+  std::array<char, 32> file{};
+  std::snprintf(file.data(), file.size(), "/dev/bus/usb/%03d/%03d", libusb_get_bus_number(device),
+    libusb_get_device_address(device));
+  this->Guardian.Start(this->GuardianProgram, file.data());
+  return LIBUSB_SUCCESS;
 }
 
 void FalconUsb::Close()

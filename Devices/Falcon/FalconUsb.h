@@ -15,7 +15,7 @@
 
 namespace haptics
 {
-/// @brief Something went wrong with the device; what() tells people what and what to do.
+/// @brief A fault of the device; what() says what went wrong and what to do.
 class FalconFault : public std::runtime_error
 {
 public:
@@ -119,6 +119,7 @@ public:
 
 private:
   std::vector<libusb_device*> FindDevices() const;
+  int Claim(libusb_device* device);
   static int LIBUSB_CALL OnHotplug(
     libusb_context*, libusb_device*, libusb_hotplug_event event, void* self);
   bool MustStop() const { return this->Stoppable && this->Stop.load(std::memory_order_relaxed); }

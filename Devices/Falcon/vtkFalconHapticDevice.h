@@ -14,7 +14,7 @@
  * where its makers put the origin; see haptics::FalconKinematics. Buttons 0 to 3 are plus, forward,
  * centre and minus.
  *
- * Torques are in units that nobody has documented: calibrate TorqueScale before trusting a force,
+ * Torques are in undocumented units: calibrate TorqueScale before trusting a force,
  * see Devices/README.md, which also lists every fault, what the device gets and what the user
  * reads. Damping, 2 N s/m, is an assumption: it is what the stiffness limit goes by.
  *
@@ -92,8 +92,8 @@ public:
   ///@}
   ///@{
   /**
-   * Motor units for a torque of 1 N m [1/(N m)], the sign telling which way the motors turn.
-   * Default -3500; from 100 to 20,000 in magnitude, else an error and no change. Taken when the
+   * Motor units for a torque of 1 N m [1/(N m)], its sign is the way in which the motors turn.
+   * Default -3500; from 100 to 20,000 in magnitude, else an error and no change. Read when the
    * device becomes ready.
    */
   void SetTorqueScale(double scale);

@@ -48,7 +48,8 @@ std::string Advice(const std::string& file)
     if (file.empty() && std::filesystem::exists(folder + "libdrd.a", error))
     {
       return "There is only the static " + folder +
-        "libdrd.a, which cannot be loaded: copy libdrd.so.3 from Force Dimension's SDK beside it.";
+        "libdrd.a, which cannot be loaded: copy libdrd.so.3 from Force Dimension's SDK to the same "
+        "folder.";
     }
   }
   return "Install Force Dimension's SDK, version 3, and set FDSDK to its folder, or set "

@@ -3,7 +3,7 @@
  * @brief   a Force Dimension omega, delta, sigma or lambda, or a Novint Falcon, through its SDK
  *
  * The SDK (libdrd, version 3) is Force Dimension's, and has to be installed; it is loaded when the
- * device is opened. Devices are told apart by their index, "0" and on, as the SDK counts them.
+ * device is opened. Devices are identified by their index, "0" and on, as the SDK counts them.
  *
  * Device frame: x right, y up, z towards the user [m], the vendor's axes turned. Buttons are the
  * SDK's button mask. GetOrientation() is the wrist's, where it has one; torques and grippers are
@@ -13,7 +13,7 @@
  * The largest force is ForceLimit, up to 8 N; what it reaches, a box of 100 mm by 100 by 80 around
  * the vendor's origin, is an assumption, as is Damping.
  *
- * Nobody has reported yet to have tried this on hardware: see Devices/README.md before you trust
+ * Untested on hardware so far: see Devices/README.md before you trust
  * it.
  *
  * @sa vtkDriverHapticDevice vtkFalconHapticDevice

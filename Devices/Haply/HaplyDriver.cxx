@@ -1,6 +1,7 @@
 #include "haptics/Devices/Haply/HaplyDriver.h"
 
 #include "haptics/Devices/Driver/ForceExchange.h"
+#include "haptics/Devices/FormerUser.h"
 
 #include <algorithm>
 #include <chrono>
@@ -111,7 +112,7 @@ void HaplyDriver::SayHello()
   }
 }
 
-void HaplyDriver::Choose()
+const HaplyDevice& HaplyDriver::FindWanted() const
 {
   const HaplyDevice* device = this->State.Find(this->WantedId);
   if (!device)
@@ -127,19 +128,33 @@ void HaplyDriver::Choose()
         : "The Haply Inverse Service finds no Inverse3 '" + this->WantedId + "', but: " + others +
           ".");
   }
-  if (device->IsInUse)
+  return *device;
+}
+
+void HaplyDriver::Choose(DriverContext& context)
+{
+  const auto isFree = [this]
   {
-    throw DeviceFault("The Inverse3 " + device->Id +
+    this->Socket.Close();
+    this->Socket.Connect();
+    this->SayHello();
+    return !this->FindWanted().IsInUse;
+  };
+  const bool isTaken = this->FindWanted().IsInUse && !WaitForFormerUser(context, isFree);
+  const HaplyDevice& device = this->FindWanted();
+  if (isTaken)
+  {
+    throw DeviceFault("The Inverse3 " + device.Id +
       " is in use by another program. End that program's session, and open it again.");
   }
-  if (!HaplyMessage::IsPermutation(device->Permutation))
+  if (!HaplyMessage::IsPermutation(device.Permutation))
   {
-    throw DeviceFault("The Inverse3 " + device->Id + " reports positions along the axes '" +
-      device->Permutation +
+    throw DeviceFault("The Inverse3 " + device.Id + " reports positions along the axes '" +
+      device.Permutation +
       "', which are none or mirror. Set its basis to XYZ in the service's settings.");
   }
-  this->Id = device->Id;
-  this->Permutation = device->Permutation;
+  this->Id = device.Id;
+  this->Permutation = device.Permutation;
 }
 
 void HaplyDriver::Open(DriverContext& context)
@@ -149,7 +164,7 @@ void HaplyDriver::Open(DriverContext& context)
   context.CheckStop();
   this->Socket.Connect();
   this->SayHello();
-  this->Choose();
+  this->Choose(context);
 
   DriverLimits limits;
   limits.Name = "Inverse3 " + this->Id;

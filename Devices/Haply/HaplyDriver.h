@@ -32,8 +32,9 @@ public:
   static std::vector<std::pair<std::string, std::string>> List(int port);
 
 private:
+  const HaplyDevice& FindWanted() const;
   const HaplyDevice& Find() const;
-  void Choose();
+  void Choose(DriverContext& context);
   void ReadVersion();
   void SayHello();
   void WaitUntilCalibrated(DriverContext& context);

@@ -1,12 +1,11 @@
 #include "haptics/Devices/Haply/HaplyMessage.h"
 
-#include <json/json.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <memory>
 
 namespace haptics
 {
@@ -15,53 +14,57 @@ namespace
 using Vector = std::array<double, 3>;
 using Matrix = std::array<Vector, 3>;
 
+using Json = nlohmann::json;
+
 /// Of what is none, null: a value that is missing or of another type is none.
-const Json::Value& Member(const Json::Value& object, const char* name)
+const Json& Member(const Json& object, const char* name)
 {
-  return object.isObject() ? object[name] : Json::Value::nullSingleton();
+  static const Json none;
+  const auto found = object.find(name);
+  return found == object.end() ? none : *found;
 }
 
-bool ReadFlag(const Json::Value& object, const char* name, bool& flag)
+bool ReadFlag(const Json& object, const char* name, bool& flag)
 {
-  const Json::Value& value = Member(object, name);
-  if (value.isBool())
+  const Json& value = Member(object, name);
+  if (value.is_boolean())
   {
-    flag = value.asBool();
+    flag = value.get<bool>();
   }
-  return value.isBool();
+  return value.is_boolean();
 }
 
-bool ReadNumber(const Json::Value& object, const char* name, double& number)
+bool ReadNumber(const Json& object, const char* name, double& number)
 {
-  const Json::Value& value = Member(object, name);
-  if (value.isNumeric())
+  const Json& value = Member(object, name);
+  if (value.is_number())
   {
-    number = value.asDouble();
+    number = value.get<double>();
   }
-  return value.isNumeric();
+  return value.is_number();
 }
 
-void ReadText(const Json::Value& object, const char* name, std::string& text)
+void ReadText(const Json& object, const char* name, std::string& text)
 {
-  const Json::Value& value = Member(object, name);
-  if (value.isString())
+  const Json& value = Member(object, name);
+  if (value.is_string())
   {
-    text = value.asString();
+    text = value.get<std::string>();
   }
 }
 
-bool ReadVector(const Json::Value& object, Vector& vector)
+bool ReadVector(const Json& object, Vector& vector)
 {
   return ReadNumber(object, "x", vector[0]) && ReadNumber(object, "y", vector[1]) &&
     ReadNumber(object, "z", vector[2]);
 }
 
-void ReadDevice(const Json::Value& entry, HaplyDevice& device)
+void ReadDevice(const Json& entry, HaplyDevice& device)
 {
-  const Json::Value& config = Member(entry, "config");
+  const Json& config = Member(entry, "config");
   ReadText(Member(config, "coordinate_system"), "permutation", device.Permutation); // before 3.5
   ReadText(Member(config, "basis"), "permutation", device.Permutation);
-  const Json::Value& status = Member(entry, "status");
+  const Json& status = Member(entry, "status");
   ReadFlag(status, "calibrated", device.IsCalibrated);
   ReadFlag(status, "in_use", device.IsInUse);
   ReadFlag(status, "started", device.IsStarted);
@@ -74,10 +77,10 @@ void ReadDevice(const Json::Value& entry, HaplyDevice& device)
   }
 }
 
-void ReadGrip(const Json::Value& entry, HaplyState& state)
+void ReadGrip(const Json& entry, HaplyState& state)
 {
-  const Json::Value& grip = Member(entry, "state");
-  const Json::Value& buttons = Member(grip, "buttons");
+  const Json& grip = Member(entry, "state");
+  const Json& buttons = Member(grip, "buttons");
   state.Buttons = 0;
   constexpr std::array<const char*, 3> Letters{ { "a", "b", "c" } };
   for (std::size_t i = 0; i < Letters.size(); ++i)
@@ -90,7 +93,7 @@ void ReadGrip(const Json::Value& entry, HaplyState& state)
   ReadFlag(grip, "button", isHeld);
   state.Buttons |= isHeld ? 1u : 0u;
 
-  const Json::Value& orientation = Member(grip, "orientation");
+  const Json& orientation = Member(grip, "orientation");
   std::array<double, 4> q{};
   if (ReadNumber(orientation, "w", q[0]) && ReadNumber(orientation, "x", q[1]) &&
     ReadNumber(orientation, "y", q[2]) && ReadNumber(orientation, "z", q[3]))
@@ -103,20 +106,11 @@ void ReadGrip(const Json::Value& entry, HaplyState& state)
   }
 }
 
-bool Parse(std::string_view text, Json::Value& root)
+/// Null where the text is no object: what is damaged is damaged, wherever.
+Json ObjectOf(std::string_view text)
 {
-  const Json::CharReaderBuilder builder;
-  const std::unique_ptr<Json::CharReader> reader(builder.newCharReader());
-  std::string ignored; // what is damaged is damaged, wherever
-  try
-  {
-    return reader->parse(text.data(), text.data() + text.size(), &root, &ignored) &&
-      root.isObject();
-  }
-  catch (const Json::Exception&) // nested too deeply
-  {
-    return false;
-  }
+  Json root = Json::parse(text, nullptr, false);
+  return root.is_object() ? root : Json();
 }
 
 /// Row i is along which of the service's own axes the i-th number is.
@@ -157,7 +151,7 @@ void Append(double number, std::string& text)
 
 std::string Escaped(const std::string& text)
 {
-  return Json::valueToQuotedString(text.c_str());
+  return Json(text).dump(-1, ' ', true, Json::error_handler_t::replace);
 }
 }
 
@@ -170,13 +164,13 @@ const HaplyDevice* HaplyState::Find(const std::string& id) const
 
 bool HaplyMessage::Read(std::string_view text, HaplyState& state)
 {
-  Json::Value root;
-  if (!Parse(text, root) || !Member(root, "inverse3").isArray())
+  const Json root = ObjectOf(text);
+  if (!Member(root, "inverse3").is_array())
   {
     return false;
   }
   std::vector<HaplyDevice> devices;
-  for (const Json::Value& entry : root["inverse3"])
+  for (const Json& entry : root["inverse3"])
   {
     std::string id;
     ReadText(entry, "device_id", id);
@@ -192,8 +186,8 @@ bool HaplyMessage::Read(std::string_view text, HaplyState& state)
   state.HasGrip = false;
   for (const char* kind : { "verse_grip", "wireless_verse_grip", "custom_verse_grip" })
   {
-    const Json::Value& grips = Member(root, kind);
-    if (!state.HasGrip && grips.isArray() && !grips.empty())
+    const Json& grips = Member(root, kind);
+    if (!state.HasGrip && grips.is_array() && !grips.empty())
     {
       state.HasGrip = true;
       ReadGrip(grips[0], state);
@@ -204,14 +198,10 @@ bool HaplyMessage::Read(std::string_view text, HaplyState& state)
 
 bool HaplyMessage::ReadVersion(std::string_view text, HaplyVersion& version)
 {
-  Json::Value root;
+  const Json root = ObjectOf(text);
   std::string number;
-  if (!Parse(text, root))
-  {
-    return false;
-  }
-  const Json::Value& data = Member(root, "data"); // some services put their answers into it
-  ReadText(data.isObject() ? data : root, "project_version", number);
+  const Json& data = Member(root, "data"); // some services put their answers into it
+  ReadText(data.is_object() ? data : root, "project_version", number);
   return std::sscanf(number.c_str(), "%d.%d", &version.Major, &version.Minor) == 2;
 }
 

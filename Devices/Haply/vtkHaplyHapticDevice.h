@@ -3,7 +3,7 @@
  * @brief   a Haply Inverse3, with or without a VerseGrip, through the Haply Inverse Service
  *
  * The service is Haply's, and owns the USB; it has to run on this machine. Versions 3.1 to 3.x are
- * spoken. Devices are told apart by the service's `device_id`, such as "049D".
+ * spoken. Devices are identified by the service's `device_id`, such as "049D".
  *
  * Device frame: x right, y up, z towards the user [m], the service's axes turned (they have z up);
  * a basis that the user has set in the service is taken into account. The origin is the service's.
@@ -13,7 +13,7 @@
  * The largest force is ForceLimit, up to the 10 N that its maker names for a short while. What it
  * reaches, a box of 160 mm, is an assumption, as is Damping.
  *
- * Nobody has reported yet to have tried this on hardware. Whether the service holds the last force
+ * Untested on hardware so far. Whether the service holds the last force
  * of a program that was killed is not known: see Devices/README.md before you trust it.
  *
  * @sa vtkDriverHapticDevice

@@ -1,6 +1,8 @@
 #include "haptics/Devices/OpenHaptics/OpenHapticsDriver.h"
 
 #include "haptics/Devices/Driver/ForceExchange.h"
+#include "haptics/Devices/FormerUser.h"
+#include "haptics/Devices/MonotonicClock.h"
 
 #include <algorithm>
 #include <array>
@@ -24,11 +26,6 @@ constexpr double Millimeter = 0.001;           // [m]
 constexpr int MostErrors = 8;                  // that are taken from HDAPI's stack at once
 
 std::atomic<bool> IsSchedulerTaken{ false }; // HDAPI has one a process
-
-std::int64_t Now() noexcept
-{
-  return std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
-}
 }
 
 OpenHapticsDriver::OpenHapticsDriver(std::string name, std::string libraryFile, bool resetsEncoders)
@@ -52,7 +49,7 @@ void OpenHapticsDriver::Open(DriverContext& context)
   {
     this->Hd = std::make_unique<HdLibrary>(this->LibraryFile);
   }
-  this->Take();
+  this->Take(context);
   this->ReadLimits(context);
   this->Hd->Enable(HdLibrary::ForceOutput); // which stays zero until Serve()
   this->Scheduled = this->Hd->ScheduleAsynchronous(
@@ -64,7 +61,7 @@ void OpenHapticsDriver::Open(DriverContext& context)
   {
     throw DeviceFault(this->Hd->Explain(error.Code));
   }
-  this->LastTick = Now();
+  this->LastTick = MonotonicNow();
   this->SeenTicks = this->Ticks;
   while (this->Calibration.load() != HdLibrary::CalibrationIsGood)
   {
@@ -83,9 +80,9 @@ void OpenHapticsDriver::Open(DriverContext& context)
   }
 }
 
-void OpenHapticsDriver::Take()
+void OpenHapticsDriver::Take(DriverContext& context)
 {
-  if (IsSchedulerTaken.exchange(true))
+  if (!WaitForFormerUser(context, [] { return !IsSchedulerTaken.exchange(true); }))
   {
     throw DeviceFault("Another device object of this program has OpenHaptics, which drives one "
                       "device a program. Close that one, then open this.");
@@ -149,7 +146,7 @@ unsigned int OpenHapticsDriver::OnTick(void* self)
 void OpenHapticsDriver::Tick() noexcept
 {
   const std::uint64_t tick = this->Ticks.load(std::memory_order_relaxed);
-  const auto start = static_cast<std::uint64_t>(Now());
+  const std::int64_t start = MonotonicNow();
   ForceExchange* const exchange = this->Exchange.load(std::memory_order_acquire);
   std::array<double, 3> position{};
   std::array<double, 16> transform{};
@@ -206,8 +203,7 @@ void OpenHapticsDriver::Tick() noexcept
     {
       sample.Orientation = { q[0] / length, q[1] / length, q[2] / length, q[3] / length };
     }
-    exchange->Publish(
-      sample, static_cast<double>(static_cast<std::uint64_t>(Now()) - start) * 1e-9);
+    exchange->Publish(sample, static_cast<double>(MonotonicNow() - start) * 1e-9);
   }
   this->Ticks.store(tick + 1, std::memory_order_release);
 }
@@ -253,7 +249,7 @@ void OpenHapticsDriver::Watch(DriverContext& context)
   context.CheckStop();
   this->ThrowAtError();
   const std::uint64_t ticks = this->Ticks.load(std::memory_order_acquire);
-  const std::int64_t now = Now();
+  const std::int64_t now = MonotonicNow();
   if (ticks != this->SeenTicks)
   {
     this->SeenTicks = ticks;

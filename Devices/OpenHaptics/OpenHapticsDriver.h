@@ -32,7 +32,7 @@ private:
   static unsigned int OnTick(void* self);
   void Tick() noexcept;
   void Calibrate() noexcept;
-  void Take();
+  void Take(DriverContext& context);
   void ReadLimits(DriverContext& context);
   void Watch(DriverContext& context);
   void ThrowAtError() const;

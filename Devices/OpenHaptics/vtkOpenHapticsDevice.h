@@ -3,7 +3,7 @@
  * @brief   a 3D Systems Touch, Touch X or Phantom, through OpenHaptics
  *
  * OpenHaptics (libHD.so) and the device's driver are 3D Systems', and have to be installed;
- * the library is loaded when the device is opened. Devices are told apart by the name under which
+ * the library is loaded when the device is opened. Devices are identified by the name under which
  * the maker's Touch_Setup knows them, such as "Default Device". OpenHaptics' own scheduler is the
  * clock; it drives one device a program.
  *
@@ -15,7 +15,7 @@
  * stiffness 500 N/m or the nominal one where that is less. Warm motors, too much force and too high
  * a speed, which OpenHaptics reports, end the run.
  *
- * Nobody has reported yet to have tried this on hardware: see Devices/README.md before you trust
+ * Untested on hardware so far: see Devices/README.md before you trust
  * it.
  *
  * @sa vtkDriverHapticDevice

@@ -106,9 +106,9 @@ private:
 /// Whether the last four of the bytes are the checksum of those before.
 bool IsWhole(const unsigned char* bytes, std::size_t size)
 {
-  std::uint32_t told = 0;
-  Taker(bytes + size - ChecksumSize).Take(told);
-  return told == Checksum(bytes, size - ChecksumSize);
+  std::uint32_t stored = 0;
+  Taker(bytes + size - ChecksumSize).Take(stored);
+  return stored == Checksum(bytes, size - ChecksumSize);
 }
 
 /// A period is divided by, and limits are compared with.
@@ -118,7 +118,7 @@ bool IsUsable(const RecordingHeader& header)
     header.MaximumStiffness >= 0.0 && header.Damping >= 0.0 && header.Latency >= 0.0;
 }
 
-/// Servos count on time that goes on; false for a time that is no number.
+/// Servos count on time that goes on; false for a time that is NaN.
 bool Follows(const RecordedTick& tick, const std::vector<RecordedTick>& ticks)
 {
   return std::isfinite(tick.Time) &&
@@ -283,8 +283,9 @@ bool ReadRecording(const std::string& fileName, Recording& recording, std::strin
   }
   if (!IsUsable(read.Header))
   {
-    return fail("tells of a device or a servo that cannot be: its rate must be finite and above 0, "
-                "force, stiffness, damping and latency not below 0. Record it anew.");
+    return fail(
+      "describes a device or a servo that cannot be: its rate must be finite and above 0, "
+      "force, stiffness, damping and latency not below 0. Record it anew.");
   }
 
   Bytes bytes(recordSize);

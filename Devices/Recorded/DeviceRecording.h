@@ -48,7 +48,7 @@ struct RecordedTick
 ///       placements u32, place 3 f64, releases u32, latency f64, CRC-32 of the record
 ///     ...
 ///
-/// A record is whole or is not there: its checksum tells. Records of 72 bytes lack the second line
+/// A record is whole or is not there, by its checksum. Records of 72 bytes lack the second line
 /// but for the checksum. Not the servo thread.
 class VTKHAPTICSDEVICES_EXPORT RecordingWriter
 {
@@ -81,13 +81,13 @@ struct Recording
 {
   RecordingHeader Header;
   std::vector<RecordedTick> Ticks;
-  /// For people: what was cut off, where the file does not end with a whole record; else empty.
+  /// In a sentence, what was cut off where the file does not end with a whole record; else empty.
   std::string Note;
 };
 
 /// Reads a recording up to its last whole record. False, with the cause in `error`, where the file
 /// cannot be read, is no regular file, no recording, or has no whole record, where a tick is not
-/// later than the one before, or where the header tells no rate or a limit below 0.
+/// later than the one before, or where the header has no rate or a limit below 0.
 VTKHAPTICSDEVICES_EXPORT bool ReadRecording(
   const std::string& fileName, Recording& recording, std::string& error);
 }

@@ -52,7 +52,7 @@ public:
   vtkGetMacro(Duration, double);
   vtkGetMacro(Rate, double);
   ///@}
-  /// What of the recording is missing, for people: its end, or ticks within. Empty where nothing
+  /// What of the recording is missing, in a sentence: its end, or ticks within. Empty where nothing
   /// is.
   vtkGetMacro(Note, std::string);
   /// What the hand did in a tick, 0 <= tick < GetNumberOfTicks(): position [m] and force [N],

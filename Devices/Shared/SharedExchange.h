@@ -25,7 +25,7 @@ enum SharedValue : std::size_t
   SharedSize = 16
 };
 
-/// What a device's program tells.
+/// What a device's program reports.
 struct SharedHand
 {
   std::array<double, 3> Position{};

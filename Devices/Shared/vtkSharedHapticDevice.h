@@ -57,11 +57,11 @@ public:
   ///@}
 
   /**
-   * Tells where the hand is, device frame [m], which buttons it holds, and returns the force to
-   * give it [N]: zero while no servo runs. Wait-free. Any one thread.
+   * Reports the position of the hand, device frame [m], and the buttons that it holds; returns the
+   * force to give it [N]: zero while no servo runs. Wait-free. Any one thread.
    */
   void Exchange(const double position[3], unsigned int buttons, double force[3]);
-  /// Tells that the device is lost: zero force from the servo's next tick on. As Exchange().
+  /// Reports that the device is lost: zero force from the servo's next tick on. As Exchange().
   void Lose();
 
   ///@{

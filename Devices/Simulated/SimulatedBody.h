@@ -13,7 +13,7 @@ namespace haptics
 /// What a simulated device's mechanics and the hand on it are. All finite and >= 0, the mass > 0.
 struct BodyParameters
 {
-  double Mass = 0.045;            ///< felt at the tip, alike in all directions [kg]
+  double Mass = 0.045;            ///< at the tip, the same in all directions [kg]
   double Damping = 0.35;          ///< viscous friction b [N s/m]
   double CoulombFriction = 0.0;   ///< on each axis [N]
   double EncoderResolution = 0.0; ///< step of the measured position [m]; 0: none
@@ -53,7 +53,7 @@ public:
   double GetTime() const noexcept { return this->Time; }
   DevicePoint GetPosition() const noexcept;           ///< true [m]
   std::array<double, 3> GetVelocity() const noexcept; ///< true [m/s]
-  DevicePoint GetMeasuredPosition() const noexcept;   ///< as the encoders tell it [m]
+  DevicePoint GetMeasuredPosition() const noexcept;   ///< as the encoders report it [m]
 
 private:
   // Transition of (offset from the target, its rate, acceleration by constant forces) over a time.

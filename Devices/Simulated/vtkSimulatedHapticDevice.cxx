@@ -287,7 +287,7 @@ void vtkSimulatedHapticDevice::Close()
   this->BecomeClosed();
 }
 
-// Setters clamp, but what is no number is within no bounds.
+// Setters clamp, but NaN is within no bounds.
 bool vtkSimulatedHapticDevice::CheckNumbers(std::string& error)
 {
   const std::pair<const char*, double> numbers[] = { { "MaximumForce", this->MaximumForce },
@@ -300,7 +300,8 @@ bool vtkSimulatedHapticDevice::CheckNumbers(std::string& error)
   {
     if (std::isnan(value))
     {
-      error = std::string("The simulated device's ") + name + " is no number. Set it, then open.";
+      error =
+        std::string("The simulated device's ") + name + " is not a number. Set it, then open.";
       return false;
     }
   }

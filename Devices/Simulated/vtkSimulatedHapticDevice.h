@@ -193,7 +193,7 @@ public:
   vtkBooleanMacro(Body, bool);
   ///@}
   ///@{
-  /// Mass felt at the tip [kg]. Default 0.045; 0.0001 to 10. Its viscous friction is Damping.
+  /// Mass at the tip [kg]. Default 0.045; 0.0001 to 10. Its viscous friction is Damping.
   vtkSetClampMacro(Mass, double, 0.0001, 10.0);
   vtkGetMacro(Mass, double);
   ///@}
@@ -231,7 +231,8 @@ public:
    * and 8.5 N, 75 g, 0.04 N, 30 um. The Falcon's force, encoder step (400 dpi) and 4-inch cube are
    * its maker's; its mass (0.25 kg) and friction (0.5 N) are published nowhere and assumed. The
    * largest stiffness is what common haptics software claims for each: 400, 700, 800, 3000 N/m. No
-   * maker tells a viscous friction; it is taken as the one that just holds that stiffness at 1 kHz.
+   * maker states a viscous friction; it is taken as the one that just holds that stiffness at 1
+   * kHz.
    */
   void SetPreset(int preset);
 

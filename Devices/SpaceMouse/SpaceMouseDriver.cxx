@@ -1,6 +1,7 @@
 #include "haptics/Devices/SpaceMouse/SpaceMouseDriver.h"
 
 #include "haptics/Devices/Driver/ForceExchange.h"
+#include "haptics/Devices/FormerUser.h"
 #include "haptics/Devices/SpaceMouse/SpnavLibrary.h"
 
 #include <poll.h>
@@ -56,15 +57,16 @@ SpaceMouseDriver::SpaceMouseDriver(const SpaceMouseMotion& motion)
 {
 }
 
-void SpaceMouseDriver::Connect()
+/// Waits for a former user only with a context, which says when to stop.
+void SpaceMouseDriver::Connect(const DriverContext* context)
 {
-  const SpnavLibrary& library = SpnavLibrary::Get();
-  if (IsConnectionTaken.exchange(true))
+  const auto take = [] { return !IsConnectionTaken.exchange(true); };
+  if (!(context ? WaitForFormerUser(*context, take) : take()))
   {
     throw DeviceFault("Another device object of this program has the SpaceMouse. Close that one, "
                       "then open this.");
   }
-  if (library.Open() < 0)
+  if (SpnavLibrary::Get().Open() < 0)
   {
     IsConnectionTaken.store(false);
     throw DeviceFault("The SpaceMouse's daemon does not run. Install and start spacenavd (Debian: "
@@ -112,7 +114,7 @@ void SpaceMouseDriver::Open(DriverContext& context)
   context.Report(DevicePhase::Opening, "Looking for the SpaceMouse's daemon.");
   this->Deflection = {};
   this->Buttons = 0;
-  this->Connect();
+  this->Connect(&context);
   const std::string name = this->ReadName();
   DriverLimits limits;
   limits.Name = name.empty() ? "SpaceMouse" : name;

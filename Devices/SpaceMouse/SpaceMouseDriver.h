@@ -37,7 +37,7 @@ public:
   static std::string Describe();
 
 private:
-  void Connect();
+  void Connect(const DriverContext* context = nullptr);
   std::string ReadName() const;
   void ReadEvents();
 

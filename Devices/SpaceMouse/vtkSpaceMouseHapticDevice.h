@@ -12,7 +12,7 @@
  * vtkGodObjectActor, and as a bar and a number by vtkHapticOverlay.
  *
  * Device frame: x right, y up, z towards the user [m]. Button i is the daemon's. One device a
- * program. Nobody has reported yet to have tried this on hardware.
+ * program. Untested on hardware so far.
  *
  * @sa vtkDriverHapticDevice vtkMouseHapticDevice
  */

@@ -130,7 +130,7 @@ public:
   EngineKind Kind() const noexcept override { return EngineKind::Exact; }
   std::size_t MemoryBytes() const noexcept override
   {
-    // CGAL does not tell: a node of a box and two children for each triangle, and its index.
+    // CGAL does not report it: a node of a box and two children for each triangle, and its index.
     return this->Triangles.size() * (sizeof(CGAL::Bbox_3) + 2 * sizeof(void*) + sizeof(Primitive));
   }
 

@@ -31,7 +31,7 @@ public:
 
 protected:
   virtual void Work() = 0;
-  /// Tells how far the work is; false where its end was asked for.
+  /// Reports the progress of the work; false where its end was asked for.
   bool Report(double fraction);
 
 private:

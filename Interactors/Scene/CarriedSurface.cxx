@@ -1,5 +1,6 @@
 #include "haptics/Scene/CarriedSurface.h"
 
+#include "haptics/Scene/Rounding.h"
 #include "haptics/Scene/SurfaceSet.h"
 #include "vtkActor.h"
 #include "vtkLinearTransform.h"
@@ -12,20 +13,9 @@
 
 namespace haptics
 {
-namespace
-{
-/// Of the coordinates: a shift by less is rounding, and would draw the picture again and again.
-constexpr double Rounding = 1e-14;
-
-double Largest(const Vec3& v)
-{
-  return std::max({ std::abs(v[0]), std::abs(v[1]), std::abs(v[2]) });
-}
-}
-
 void CarriedSurface::Take(int surface, const TickRecord& latest, SurfaceSet& surfaces)
 {
-  this->Gripped = surface;
+  this->Id = surface;
   this->Since = 0;
   this->IsHeld = false;
   this->Remember(latest, surfaces);
@@ -34,17 +24,17 @@ void CarriedSurface::Take(int surface, const TickRecord& latest, SurfaceSet& sur
 
 void CarriedSurface::LetGo(SurfaceSet& surfaces)
 {
-  surfaces.SetGripped(this->Gripped, false);
-  this->Gripped = Nothing;
+  surfaces.SetGripped(this->Id, false);
+  this->Id = Nothing;
 }
 
 bool CarriedSurface::IsLost(const SurfaceSet& surfaces) const
 {
-  const HapticSurface* const surface = surfaces.Find(this->Gripped);
-  return this->Gripped != Nothing && !(surface && surface->Touched());
+  const HapticSurface* const surface = surfaces.Find(this->Id);
+  return this->Id != Nothing && !(surface && surface->TouchableSurface());
 }
 
-void CarriedSurface::Published(std::uint64_t generation)
+void CarriedSurface::OnPublished(std::uint64_t generation)
 {
   if (this->Since == 0)
   {
@@ -54,18 +44,18 @@ void CarriedSurface::Published(std::uint64_t generation)
 
 void CarriedSurface::Remember(const TickRecord& tick, const SurfaceSet& surfaces)
 {
-  if (const HapticSurface* const surface = surfaces.Find(this->Gripped))
+  if (const HapticSurface* const surface = surfaces.Find(this->Id))
   {
-    const bool isTouched = surfaces.Locate(tick).Surface == this->Gripped;
+    const bool isTouched = surfaces.Locate(tick).Surface == this->Id;
     this->Point = surface->PointInActor(surfaces.PointOf(tick, *surface));
     this->NormalThere = isTouched ? tick.Constraints[0].Normal : Vec3{};
     this->LastTick = tick.Tick;
   }
 }
 
-void CarriedSurface::Look(const TickRecord& tick, const SurfaceSet& surfaces)
+void CarriedSurface::OnTick(const TickRecord& tick, const SurfaceSet& surfaces)
 {
-  if (this->Gripped == Nothing || this->IsHeld)
+  if (this->Id == Nothing || this->IsHeld)
   {
     return;
   }
@@ -79,7 +69,7 @@ void CarriedSurface::Look(const TickRecord& tick, const SurfaceSet& surfaces)
 
 bool CarriedSurface::Carry(const TickRecord& tick, vtkActor* actor, SurfaceSet& surfaces)
 {
-  HapticSurface* const surface = surfaces.Find(this->Gripped);
+  HapticSurface* const surface = surfaces.Find(this->Id);
   if (!surface || !this->IsHeld)
   {
     return false;
@@ -89,9 +79,9 @@ bool CarriedSurface::Carry(const TickRecord& tick, vtkActor* actor, SurfaceSet& 
   const Vec3 there = Transformed(world, this->Point);
   const Vec3& hand = tick.Position;
   const Vec3 by{ hand[0] - there[0], hand[1] - there[1], hand[2] - there[2] };
-  const double size =
-    std::max({ Largest(hand), Largest(there), Largest({ world[3], world[7], world[11] }) });
-  return Largest(by) > Rounding * size && ShiftActor(actor, world, by);
+  const double size = std::max({ LargestComponent(hand), LargestComponent(there),
+    LargestComponent({ world[3], world[7], world[11] }) });
+  return LargestComponent(by) > CoordinateRounding * size && ShiftActor(actor, world, by);
 }
 
 bool ShiftActor(vtkActor* actor, const Matrix4& world, const Vec3& by)

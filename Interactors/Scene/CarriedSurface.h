@@ -22,20 +22,20 @@ class CarriedSurface
 public:
   static constexpr int Nothing = -1;
   /// The id of what is gripped, or Nothing.
-  int Surface() const { return this->Gripped; }
-  bool IsNothing() const { return this->Gripped == Nothing; }
+  int Surface() const { return this->Id; }
+  bool IsNothing() const { return this->Id == Nothing; }
 
   /// Grips a surface that is in the set and has an actor. `latest`: the last tick that is known.
   void Take(int surface, const TickRecord& latest, SurfaceSet& surfaces);
-  /// Lets go. The surface stays where it is and is felt from the next publication on.
+  /// Lets go. The surface stays where it is and is touched from the next publication on.
   void LetGo(SurfaceSet& surfaces);
   /// Whether what is gripped cannot be touched any more: taken away or hidden.
   bool IsLost(const SurfaceSet& surfaces) const;
 
   /// Takes the number of each god-object that is published.
-  void Published(std::uint64_t generation);
+  void OnPublished(std::uint64_t generation);
   /// Looks at the next tick.
-  void Look(const TickRecord& tick, const SurfaceSet& surfaces);
+  void OnTick(const TickRecord& tick, const SurfaceSet& surfaces);
   /// Moves `actor`, the one that a user sees as the surface, to where the hand has it in a tick.
   /// True where it has moved.
   bool Carry(const TickRecord& tick, vtkActor* actor, SurfaceSet& surfaces);
@@ -45,8 +45,8 @@ public:
 private:
   void Remember(const TickRecord& tick, const SurfaceSet& surfaces);
 
-  int Gripped = Nothing;
-  std::uint64_t Since = 0; ///< the first god-object that does not feel it; 0: not published yet
+  int Id = Nothing;
+  std::uint64_t Since = 0; ///< the first god-object that does not touch it; 0: not published yet
   bool IsHeld = false;     ///< by such a god-object
   Vec3 Point{};            ///< in the hand, in the actor's own frame
   Vec3 NormalThere{};

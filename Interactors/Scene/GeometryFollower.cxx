@@ -1,15 +1,20 @@
 #include "haptics/Scene/GeometryFollower.h"
 
 #include "haptics/Filters/ErrorText.h"
+#include "haptics/Filters/PlacedBounds.h"
 #include "vtkAlgorithmOutput.h"
 #include "vtkBoundingBox.h"
+#include "vtkBox.h"
 #include "vtkCommand.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataSet.h"
 #include "vtkDemandDrivenPipeline.h"
+#include "vtkHapticPatchAlgorithm.h"
 #include "vtkHyperTreeGrid.h"
+#include "vtkMatrix4x4.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -17,6 +22,9 @@ namespace haptics
 {
 namespace
 {
+/// The thread that asks for patches waits for them; so it has half of its time for others.
+constexpr double PauseAfterPatch = 1.0;
+
 /// What makes polydata of what is connected.
 const char* RemedyFor(vtkDataObject* output)
 {
@@ -77,7 +85,203 @@ bool GeometryFollower::Connect(PullReport& report)
     this->Preparation->GetInputConnection(0, 0) != geometry)
   {
     this->Preparation->SetInputConnection(geometry);
+    this->Patches = vtkHapticPatchAlgorithm::SafeDownCast(geometry->GetProducer());
+    this->Planner.reset();
+    this->LastBeam.reset();
+    this->Fetching.reset();
+    this->Asked.reset();
+    this->SurveyTried = 0;
   }
+  return true;
+}
+
+/// Asks for the patch that the hand needs next; before there is one, for one in the middle.
+void GeometryFollower::FollowHand(const PullSettings& settings, PullReport& report)
+{
+  if (!this->Patches || (this->Planner && !settings.Hand))
+  {
+    return;
+  }
+  if (this->Patches->GetMTime() != this->SurveyTried)
+  {
+    const bool isKnown = this->Patches->Survey();
+    this->SurveyTried = this->Patches->GetMTime();
+    if (!isKnown)
+    {
+      report.Fail("its pieces cannot be touched, as its vtkHapticPatchSource reports");
+    }
+    this->Planner = isKnown && !this->Planner
+      ? std::optional<PatchPlanner>(std::in_place, this->Patches->GetPatchRadiusInUse(),
+          this->Patches->GetsInBackground() && settings.Worker ? 0.0 : PauseAfterPatch)
+      : isKnown ? this->Planner
+                : std::nullopt;
+  }
+  if (!this->Planner)
+  {
+    return;
+  }
+  if (std::exchange(this->PlannedSurface, this->Patches->GetVersion()) !=
+    this->Patches->GetVersion())
+  {
+    this->Planner->Renew(); // a patch is asked for in any case: so for one where the hand is now
+  }
+  HandState hand;
+  if (settings.Hand)
+  {
+    hand = *settings.Hand;
+    hand.Hip = this->PointInGeometry(hand.Hip);
+    hand.Position = this->PointInGeometry(hand.Position);
+  }
+  else
+  {
+    double bounds[6];
+    this->Patches->GetSurfaceBounds(bounds);
+    vtkBoundingBox(bounds).GetCenter(hand.Hip.data());
+    hand.Position = hand.Hip;
+  }
+  if (const std::optional<PatchRequest> request = this->Planner->Plan(hand))
+  {
+    this->Fetching = request;
+  }
+  // Virtual time waits for the data, and so does who waits for the first snapshot.
+  const bool waits = !settings.Worker || !this->InForce;
+  if (this->Fetching && (waits || this->Patches->Fetch(this->Fetching->Region)))
+  {
+    this->Ask(*this->Fetching);
+    this->Fetching.reset();
+  }
+}
+
+void GeometryFollower::Ask(const PatchRequest& request)
+{
+  this->Asked = request;
+  const PatchRegion& region = request.Region;
+  if (request.IsUpToSurface)
+  {
+    this->Patches->SetRegionUpToSurface(region.From.data(), region.To.data(), region.Radius);
+  }
+  else
+  {
+    this->Patches->SetRegion(region.From.data(), region.To.data(), region.Radius);
+  }
+  this->SurveyTried = this->Patches->GetMTime(); // that is not another surface
+}
+
+/// A point of the world.
+Vec3 GeometryFollower::PointInGeometry(const Vec3& point) const
+{
+  if (this->Pose.Matrix() == IdentityMatrix || Determinant(this->Pose.Matrix()) == 0.0)
+  {
+    return point;
+  }
+  Matrix4 inverse;
+  vtkMatrix4x4::Invert(this->Pose.Matrix().data(), inverse.data());
+  return Transformed(inverse, point);
+}
+
+/// Gets what is around a ray, unless it is known. False where that fails.
+bool GeometryFollower::Look(const PatchRegion& beam)
+{
+  const auto isKnown = [&]
+  {
+    const PatchRegion& known = this->LastBeam->Region;
+    return this->LastBeam->Version == this->Patches->GetVersion() &&
+      known.DistanceTo(beam.From) < known.Radius && known.DistanceTo(beam.To) < known.Radius;
+  };
+  if (!this->Patches->Survey() || (this->LastBeam && isKnown()))
+  {
+    return this->LastBeam.has_value();
+  }
+  this->LastBeam.reset();
+  vtkNew<vtkPolyData> patch;
+  if (!this->Patches->MakePatch(beam, patch))
+  {
+    return false;
+  }
+  this->LastBeam = Beam{ this->Patches->GetVersion(), beam, nullptr };
+  if (patch->GetNumberOfPolys() + patch->GetNumberOfStrips() > 0)
+  {
+    SurfacePreparation preparation(patch, this->Preparation->GetOptions(patch));
+    preparation.Run({});
+    this->LastBeam->Surface = preparation.Surface();
+  }
+  return true;
+}
+
+std::optional<RayHit> GeometryFollower::CastRayThroughPatches(
+  const Vec3& from, const Vec3& direction)
+{
+  double bounds[6];
+  this->Patches->GetSurfaceBounds(bounds);
+  const double radius = this->Patches->GetPatchRadiusInUse();
+  vtkBoundingBox box(bounds);
+  box.Inflate(radius);
+  const Vec3 start = this->PointInGeometry(from);
+  const Vec3 end = this->PointInGeometry(
+    { from[0] + direction[0], from[1] + direction[1], from[2] + direction[2] });
+  const Vec3 way{ end[0] - start[0], end[1] - start[1], end[2] - start[2] };
+  // The part of the ray within the box of the surface.
+  box.GetBounds(bounds);
+  double first = 0.0;
+  double last = 0.0;
+  int planes[2];
+  if (!vtkBox::IntersectWithInfiniteLine(
+        bounds, start.data(), end.data(), first, last, nullptr, nullptr, planes[0], planes[1]))
+  {
+    return std::nullopt;
+  }
+  first = std::max(first, 0.0);
+  if (!(first < last) || !std::isfinite(last))
+  {
+    return std::nullopt;
+  }
+  const auto at = [&](double share) {
+    return Vec3{ start[0] + share * way[0], start[1] + share * way[1], start[2] + share * way[2] };
+  };
+  if (!this->Look({ at(first), at(last), radius }) || !this->LastBeam->Surface)
+  {
+    return std::nullopt;
+  }
+  std::optional<RayHit> hit = CastRay(*this->LastBeam->Surface, start, way);
+  if (hit && this->Pose.Matrix() != IdentityMatrix)
+  {
+    // As a plane's normal: by the transposed inverse.
+    Matrix4 inverse;
+    vtkMatrix4x4::Invert(this->Pose.Matrix().data(), inverse.data());
+    const Vec3 n = hit->Normal;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      hit->Normal[axis] =
+        inverse[axis] * n[0] + inverse[4 + axis] * n[1] + inverse[8 + axis] * n[2];
+    }
+    const double length = std::hypot(hit->Normal[0], hit->Normal[1], hit->Normal[2]);
+    for (double& coordinate : hit->Normal)
+    {
+      coordinate /= length;
+    }
+  }
+  return hit;
+}
+
+void GeometryFollower::ForgetAsked()
+{
+  this->Fetching.reset();
+  this->Asked.reset();
+  if (this->Planner)
+  {
+    this->Planner->Forget();
+  }
+}
+
+bool GeometryFollower::AddBoundsOfPatches(vtkBoundingBox& box) const
+{
+  if (!this->Patches || !this->Planner)
+  {
+    return false;
+  }
+  double bounds[6];
+  this->Patches->GetSurfaceBounds(bounds);
+  box.AddBox(PlacedBounds(bounds, this->Pose.Matrix().data()));
   return true;
 }
 
@@ -93,6 +297,11 @@ GeometryFollower::Version GeometryFollower::Look(const PullSettings& settings)
   if (!(version == this->LastSeen))
   {
     this->LastSeen = version;
+    const vtkTypeUInt64 surface = this->Patches ? this->Patches->GetVersion() : 0;
+    if (surface != 0 && std::exchange(this->SeenSurface, surface) == surface)
+    {
+      return version; // another patch of it is no change
+    }
     this->HasRested = settings.Now - this->SeenAt > LongestMotion;
     this->SeenAt = settings.Now;
     this->SeenInterval = settings.Interval;
@@ -103,6 +312,7 @@ GeometryFollower::Version GeometryFollower::Look(const PullSettings& settings)
 void GeometryFollower::Follow(
   bool hasMoved, bool wasUnseen, const PullSettings& settings, PullReport& report)
 {
+  this->FollowHand(settings, report);
   const Version version = this->Look(settings);
   const bool isNew =
     !this->IsTried || !(version == this->LastTried) || (hasMoved && this->IsRefusedForMatrix);
@@ -110,7 +320,7 @@ void GeometryFollower::Follow(
   // But where nobody steps there is nothing to wait for.
   const bool mayWait = settings.IsLive && !settings.IsTaken && this->InForce &&
     (settings.IsRunning || settings.Interval > 0.0 || this->IsChangeWaiting);
-  if (this->Build && isNew && this->InForce)
+  if (this->Build && isNew && this->InForce && !this->Patches)
   {
     PullReport later; // when its turn comes
     vtkPolyData* geometry = this->UpdateGeometry(later);
@@ -168,7 +378,7 @@ void GeometryFollower::Prepare(bool wasUnseen, const PullSettings& settings, Pul
   }
   // A contour of a value that does not occur, and the like: nothing to touch. But points that never
   // had cells are somebody's mistake.
-  this->HasNoCells = geometry->GetNumberOfCells() == 0;
+  this->HasNoCells = geometry->GetNumberOfCells() == 0 && !this->Patches;
   if (this->HasNoCells && (this->InForce || geometry->GetNumberOfPoints() == 0))
   {
     return;
@@ -242,7 +452,7 @@ void GeometryFollower::TakeDoneBuild(const PullSettings& settings, PullReport& r
   {
     return;
   }
-  const bool hasToWait = this->Build->Deforms() && settings.IsLive && !settings.IsTaken;
+  const bool hasToWait = this->Build->GoesOn() && settings.IsLive && !settings.IsTaken;
   this->Stage = hasToWait ? BuildStage::WaitsForServo : BuildStage::Builds;
   if (!hasToWait)
   {
@@ -271,10 +481,16 @@ void GeometryFollower::TakeBuild(const PullSettings& settings, PullReport& repor
   {
     const std::string& why = done->Error().empty() ? this->FilterError : done->Error();
     report.Fail(why);
+    this->ForgetAsked();
     this->HasRefused = this->HasRefused || !why.empty(); // else it was given up
     return;
   }
   report.Note(this->FilterError);
+  if (this->Asked)
+  {
+    this->Planner->Receive(settings.Hand ? settings.Now : this->Asked->Time, *this->Asked);
+    this->Asked.reset();
+  }
   const bool isOtherGeometry = done->Preparation() != this->Base;
   const bool isOtherFrame = !this->InForce || !this->Pose.IsBaked(done->Matrix());
   this->InForce = done->Snapshot();
@@ -304,6 +520,7 @@ void GeometryFollower::CancelBuild()
     this->Build->Cancel();
     this->Build.reset();
     this->Stage = BuildStage::Rests;
+    this->ForgetAsked();
     this->Deformer.reset(); // the build may go on with it for a while, to a shape nobody touches
   }
 }
@@ -312,13 +529,7 @@ void GeometryFollower::AddBoundsOfBuild(vtkBoundingBox& box) const
 {
   if (this->Build && this->BuildInput)
   {
-    vtkBoundingBox local(this->BuildInput->GetBounds());
-    for (int i = 0; i < 8; ++i)
-    {
-      Vec3 corner;
-      local.GetCorner(i, corner.data());
-      box.AddPoint(Transformed(this->Pose.Matrix(), corner).data());
-    }
+    box.AddBox(PlacedBounds(this->BuildInput->GetBounds(), this->Pose.Matrix().data()));
   }
 }
 

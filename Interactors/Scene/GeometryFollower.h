@@ -2,9 +2,11 @@
 #define Haptics_GeometryFollower_h
 
 #include "haptics/Scene/JumpNotice.h"
+#include "haptics/Scene/PatchPlanner.h"
 #include "haptics/Scene/PoseFollower.h"
 #include "haptics/Scene/PullSettings.h"
 #include "haptics/Scene/SurfaceBuild.h"
+#include "haptics/Scene/SurfaceRay.h"
 #include "haptics/Scene/SurfaceSource.h"
 #include "haptics/Surface/SurfaceDeformer.h"
 #include "haptics/Surface/TriangleSurface.h"
@@ -18,11 +20,13 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 class vtkAlgorithmOutput;
 class vtkBoundingBox;
+class vtkHapticPatchAlgorithm;
 
 namespace haptics
 {
@@ -85,6 +89,12 @@ public:
   const CellIds& OriginalCellIds() const { return this->Ids; }
   /// Adds the world's bounds of what is being built for the first time, if anything is.
   void AddBoundsOfBuild(vtkBoundingBox& box) const;
+  /// Adds the world's bounds of a surface that comes in patches; false where it does not.
+  bool AddBoundsOfPatches(vtkBoundingBox& box) const;
+  /// Whether it comes in patches, which follow the hand.
+  bool IsInPatches() const { return this->Planner.has_value(); }
+  /// Where a ray meets a surface that comes in patches, also beyond the one in force; world frame.
+  std::optional<RayHit> CastRayThroughPatches(const Vec3& from, const Vec3& direction);
 
 private:
   enum class BuildStage
@@ -105,6 +115,11 @@ private:
     }
   };
 
+  void ForgetAsked();
+  Vec3 PointInGeometry(const Vec3& point) const;
+  bool Look(const PatchRegion& beam);
+  void FollowHand(const PullSettings& settings, PullReport& report);
+  void Ask(const PatchRequest& request);
   Version Look(const PullSettings& settings);
   vtkPolyData* UpdateGeometry(PullReport& report);
   void Prepare(bool wasUnseen, const PullSettings& settings, PullReport& report);
@@ -122,9 +137,28 @@ private:
   std::string FilterError;
   std::string ConnectError;
 
+  vtkHapticPatchAlgorithm* Patches = nullptr; ///< what is connected, if that gives patches
+  std::optional<PatchPlanner> Planner;        ///< once the whole surface is known
+  std::optional<PatchRequest> Fetching;       ///< in the background, and not at hand yet
+  std::optional<PatchRequest> Asked;          ///< of the patches, and not in force yet
+  vtkMTimeType SurveyTried = 0;               ///< of the patches
+  /// What is around the last ray that was cast, for those near it.
+  struct Beam
+  {
+    std::uint64_t Version = 0; ///< of the surface
+    PatchRegion Region;
+    std::shared_ptr<const TriangleSurface> Surface; ///< null: nothing is there
+  };
+  std::optional<Beam> LastBeam;
+
   bool IsTried = false; ///< a first geometry
   Version LastTried;
   Version LastSeen;
+  ///@{
+  /// Of patches: vtkHapticPatchAlgorithm::GetVersion(), when it was seen, and planned for.
+  vtkTypeUInt64 SeenSurface = 0;
+  vtkTypeUInt64 PlannedSurface = 0;
+  ///@}
   double SeenAt = 0.0;          ///< the servo's time [s]
   double SeenInterval = 0.0;    ///< PullSettings::Interval, then
   bool HasRested = false;       ///< before it was seen

@@ -86,7 +86,8 @@ void HapticAssembly::RemoveFrom(SurfaceSet& surfaces)
 bool HapticAssembly::IsTouchable(const SurfaceSet& surfaces) const
 {
   return std::any_of(this->Parts.begin(), this->Parts.end(),
-    [&surfaces](const Part& part) { return surfaces.Find(part.Surface)->Touched() != nullptr; });
+    [&surfaces](const Part& part)
+    { return surfaces.Find(part.Surface)->TouchableSurface() != nullptr; });
 }
 
 vtkActor* HapticAssembly::FindActor(int surface) const

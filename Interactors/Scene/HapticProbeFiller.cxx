@@ -53,7 +53,7 @@ void vtkHapticProbeFiller::SetTick(vtkHapticProbe* probe, const haptics::TickRec
 }
 
 void vtkHapticProbeFiller::SetContact(vtkHapticProbe* probe, const haptics::TickRecord& tick,
-  const Touched& touched, vtkPolyData* prepared)
+  const SurfaceCell& touched, vtkPolyData* prepared)
 {
   const std::shared_ptr<const haptics::TriangleSurface>& surface = touched.Snapshot;
   const haptics::Constraint& constraint = tick.Constraints[0];

@@ -15,7 +15,7 @@ public:
   /// What every tick has, with or without a contact.
   static void SetTick(vtkHapticProbe* probe, const haptics::TickRecord& tick);
   /// What a tick's first constraint belongs to.
-  struct Touched
+  struct SurfaceCell
   {
     int Surface;             ///< id
     std::string SurfaceName; ///< "" for none
@@ -26,7 +26,7 @@ public:
   /// Where the tick's first constraint lies on the surface that it names. `prepared`, which may be
   /// null, has the surface's triangles in the same order, with the arrays.
   static void SetContact(vtkHapticProbe* probe, const haptics::TickRecord& tick,
-    const Touched& touched, vtkPolyData* prepared);
+    const SurfaceCell& touched, vtkPolyData* prepared);
 };
 
 #endif

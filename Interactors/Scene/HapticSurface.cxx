@@ -16,7 +16,7 @@ HapticSurface::HapticSurface(int id, std::unique_ptr<SurfaceSource> source)
 
 bool HapticSurface::Pull(const PullSettings& settings, std::string& error)
 {
-  const Snapshot before = this->Touched();
+  const Snapshot before = this->TouchableSurface();
   const Properties propertiesBefore = this->TouchedProperties();
   PullReport report;
   this->Follow(settings, report);
@@ -24,7 +24,8 @@ bool HapticSurface::Pull(const PullSettings& settings, std::string& error)
   if (!error.empty())
   {
     error += std::string(error.back() == '.' ? "" : ".") +
-      (this->Touched() ? " What was touched before stays in force." : " It cannot be touched.");
+      (this->TouchableSurface() ? " What was touched before stays in force."
+                                : " It cannot be touched.");
   }
   if (this->Geometry.Snapshot())
   {
@@ -33,7 +34,7 @@ bool HapticSurface::Pull(const PullSettings& settings, std::string& error)
     report.Note(this->Geometry.TakeFilterError());
   }
   error += (error.empty() || report.Notice.empty() ? "" : " ") + report.Notice;
-  return this->Touched() != before || this->TouchedProperties() != propertiesBefore;
+  return this->TouchableSurface() != before || this->TouchedProperties() != propertiesBefore;
 }
 
 void HapticSurface::Follow(const PullSettings& settings, PullReport& report)
@@ -47,7 +48,7 @@ void HapticSurface::Follow(const PullSettings& settings, PullReport& report)
     return;
   }
   const bool hasMoved = this->Place.Take(this->Source->Matrix());
-  const bool isCarried = std::exchange(this->Carried, false);
+  const bool isCarried = std::exchange(this->IsCarried, false);
   if (hasMoved && this->Geometry.Snapshot())
   {
     PullSettings moving = settings;
@@ -61,9 +62,30 @@ void HapticSurface::Follow(const PullSettings& settings, PullReport& report)
   this->Geometry.Follow(hasMoved, wasUnseen, settings, report);
 }
 
+std::optional<RayHit> HapticSurface::CastRay(const Vec3& from, const Vec3& direction)
+{
+  const Snapshot touched = this->TouchableSurface();
+  if (!touched || this->IsInPatches())
+  {
+    return touched ? this->Geometry.CastRayThroughPatches(from, direction) : std::nullopt;
+  }
+  const RigidPose& pose = this->Pose();
+  std::optional<RayHit> hit =
+    haptics::CastRay(*touched, pose.PointToSurface(from), pose.VectorToSurface(direction));
+  if (hit)
+  {
+    hit->Normal = pose.VectorToWorld(hit->Normal);
+  }
+  return hit;
+}
+
 void HapticSurface::AddBounds(vtkBoundingBox& box) const
 {
-  const Snapshot touched = this->Touched();
+  const Snapshot touched = this->TouchableSurface();
+  if (this->Geometry.AddBoundsOfPatches(box))
+  {
+    return;
+  }
   if (!touched)
   {
     this->Geometry.AddBoundsOfBuild(box);

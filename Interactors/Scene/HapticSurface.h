@@ -5,10 +5,12 @@
 #include "haptics/Scene/MaterialFollower.h"
 #include "haptics/Scene/PoseFollower.h"
 #include "haptics/Scene/PullSettings.h"
+#include "haptics/Scene/SurfaceRay.h"
 #include "haptics/Scene/SurfaceSource.h"
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 class vtkBoundingBox;
@@ -68,14 +70,17 @@ public:
   const BackgroundTask* Building() const { return this->Geometry.Building(); }
   void CancelBuild() { this->Geometry.CancelBuild(); }
   bool IsWaitingForServo() const { return this->Geometry.IsWaitingForServo(); }
+  bool IsInPatches() const { return this->Geometry.IsInPatches(); }
+  /// Where a ray first meets what can be touched from there; world frame.
+  std::optional<RayHit> CastRay(const Vec3& from, const Vec3& direction);
 
   ///@{
   /// Whether the hand carries it; then it is not touched.
-  void SetGripped(bool isGripped) { this->Gripped = isGripped; }
-  bool IsGripped() const { return this->Gripped; }
+  void SetGripped(bool isGripped) { this->InGrip = isGripped; }
+  bool IsGripped() const { return this->InGrip; }
   ///@}
   /// The hand has put it where it is: the next Pull() has it there at once, and it pushes nothing.
-  void Carry() { this->Carried = true; }
+  void Carry() { this->IsCarried = true; }
   /// A point of the frame that Pose() moves, in that of the actor's geometry.
   Vec3 PointInActor(const Vec3& point) const { return this->Place.PointInGeometry(point); }
 
@@ -88,14 +93,17 @@ public:
   std::shared_ptr<SurfaceMotion> Motion() const { return this->Place.Motion(); }
 
   /// What is touched; null while the surface is hidden or empty, or was never any good.
-  Snapshot Touched() const { return this->IsThere() ? this->Geometry.Snapshot() : nullptr; }
+  Snapshot TouchableSurface() const
+  {
+    return this->IsThere() ? this->Geometry.Snapshot() : nullptr;
+  }
   /// Its material; null while it is hidden, empty or plain.
   Properties TouchedProperties() const { return this->IsThere() ? this->Material.Get() : nullptr; }
   /// Whether what is touched is an older geometry, or in an older place, because the newest is no
   /// good.
   bool IsOutdated() const
   {
-    return this->Touched() &&
+    return this->TouchableSurface() &&
       (this->Geometry.IsRefused() || this->Place.GetState() == PoseFollower::State::Refused);
   }
   /// Whether what was refused at a Pull() is refused still: geometry, matrix or an array.
@@ -120,8 +128,8 @@ private:
   GeometryFollower Geometry;
   MaterialFollower Material;
   bool IsShown = true;
-  bool Gripped = false;
-  bool Carried = false;
+  bool InGrip = false;
+  bool IsCarried = false;
 };
 }
 

@@ -25,17 +25,17 @@ public:
     const vtkMTimeType changed = filter->GetMTime();
     if (this->Data != data || this->Snapshot != snapshot || this->Settings != changed)
     {
-      this->Made = filter->MakeProperties(data, snapshot);
+      this->Current = filter->MakeProperties(data, snapshot);
       this->Data = data;
       this->Snapshot = snapshot;
       this->Settings = changed;
     }
   }
   /// Null where it is plain.
-  const Properties& Get() const { return this->Made; }
+  const Properties& Get() const { return this->Current; }
 
 private:
-  Properties Made;
+  Properties Current;
   vtkSmartPointer<vtkPolyData> Data;
   std::shared_ptr<const TriangleSurface> Snapshot;
   vtkMTimeType Settings = 0;

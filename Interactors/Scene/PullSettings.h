@@ -1,7 +1,10 @@
 #ifndef Haptics_PullSettings_h
 #define Haptics_PullSettings_h
 
+#include "haptics/Scene/PatchPlanner.h"
+
 #include <algorithm>
+#include <optional>
 #include <string>
 
 namespace haptics
@@ -27,6 +30,8 @@ struct PullSettings
   double Now = 0.0;      ///< the servo's time [s]
   double Interval = 0.0; ///< since the Pull() before [s]
   double Scale = 1.0;    ///< of the workspace [world unit / m in the hand]
+  /// World frame; none while no servo has ticked.
+  std::optional<HandState> Hand = std::nullopt;
 
   /// Of a surface that pushes a hand, in the hand [m/s].
   static constexpr double LargestSpeed = 5.0;

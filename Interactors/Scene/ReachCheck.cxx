@@ -23,7 +23,7 @@ std::string ReachCheck::Check(
   double size = 0.0;
   for (const auto& surface : surfaces.All())
   {
-    const auto touched = surface->Touched();
+    const auto touched = surface->TouchableSurface();
     if (touched && touched->Diagonal() > size)
     {
       size = touched->Diagonal();

@@ -25,8 +25,9 @@ public:
 
   /// Where the geometry is the one before in another shape, the snapshot becomes `from` deformed
   /// over `duration` [s], or longer where a point would be faster than `largestSpeed` [world unit /
-  /// s], and nothing is cleaned or built anew. `deformer`: what made `from`; null where it was
-  /// built. Before Run(); the preparation was given what `from` was made of.
+  /// s], and nothing is cleaned or built anew. A patch is built anew and deforms as well.
+  /// `deformer`: what made `from`; null where it was built. Before Run(); the preparation was given
+  /// what `from` was made of.
   void DeformFrom(std::shared_ptr<const TriangleSurface> from,
     std::shared_ptr<SurfaceDeformer> deformer, double duration, double largestSpeed);
 
@@ -38,6 +39,14 @@ public:
   bool Prepares() const { return this->IsNew && !this->HasDeformed; }
   /// Whether the snapshot is the one before deformed, and what did it.
   bool Deforms() const { return this->HasDeformed; }
+  /// Whether the snapshot goes on from the one before, which has to have been touched then.
+  bool GoesOn() const
+  {
+    return this->HasDeformed ||
+      (this->Before && this->Built &&
+        (this->Built->Deforms() ||
+          (this->Before->Deforms() && this->Built->IsOfSameWhole(*this->Before))));
+  }
   const std::shared_ptr<SurfaceDeformer>& Deformer() const { return this->Shaper; }
   /// How far a point had to go that could not in LongestMotion, so that the snapshot takes the
   /// place of the one before at once [world unit]; else 0.
@@ -58,8 +67,10 @@ protected:
 
 private:
   bool Deform();
+  double DurationFor(double way);
+  void DeformPatch();
   void BuildAnew();
-  void Bake(const TriangleSurface& local);
+  void Bake(const TriangleSurface& local, const ProgressCall& progress);
 
   std::shared_ptr<SurfacePreparation> Prepared;
   Matrix4 Baked;

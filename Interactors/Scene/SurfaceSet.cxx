@@ -2,7 +2,6 @@
 
 #include "haptics/Filters/DataPoints.h"
 #include "haptics/Scene/HapticProbeFiller.h"
-#include "haptics/Scene/SurfaceRay.h"
 #include "vtkCellArray.h"
 #include "vtkDataArray.h"
 #include "vtkIdList.h"
@@ -119,7 +118,7 @@ bool SurfaceSet::IsTouchable(int id) const
     }
   }
   const HapticSurface* const surface = this->Find(id);
-  return surface && surface->Touched() && !surface->IsGripped();
+  return surface && surface->TouchableSurface() && !surface->IsGripped();
 }
 
 std::string SurfaceSet::Title(int id) const
@@ -183,6 +182,12 @@ bool SurfaceSet::IsWaiting() const
     [](const std::unique_ptr<HapticSurface>& surface) { return surface->IsWaitingForServo(); });
 }
 
+bool SurfaceSet::IsInPatches() const
+{
+  return std::any_of(this->Surfaces.begin(), this->Surfaces.end(),
+    [](const std::unique_ptr<HapticSurface>& surface) { return surface->IsInPatches(); });
+}
+
 bool SurfaceSet::IsBuilding() const
 {
   return std::any_of(this->Surfaces.begin(), this->Surfaces.end(),
@@ -215,7 +220,7 @@ std::vector<const HapticSurface*> SurfaceSet::Listed() const
   {
     for (const auto& surface : this->Surfaces)
     {
-      if (surface->Touched() && surface->IsGripped() == isGripped)
+      if (surface->TouchableSurface() && surface->IsGripped() == isGripped)
       {
         listed.push_back(surface.get());
       }
@@ -224,12 +229,13 @@ std::vector<const HapticSurface*> SurfaceSet::Listed() const
   return listed;
 }
 
-std::vector<TouchedSurface> SurfaceSet::Touched() const
+std::vector<TouchedSurface> SurfaceSet::TouchableSurfaces() const
 {
   std::vector<TouchedSurface> touched;
   for (const HapticSurface* surface : this->Listed())
   {
-    touched.emplace_back(surface->Touched(), surface->Motion(), surface->TouchedProperties());
+    touched.emplace_back(
+      surface->TouchableSurface(), surface->Motion(), surface->TouchedProperties());
     touched.back().Identity = surface->Identity();
     touched.back().IsGripped = surface->IsGripped();
   }
@@ -241,23 +247,17 @@ std::optional<RayHit> SurfaceSet::CastRay(const Vec3& from, const Vec3& directio
   std::optional<RayHit> nearest;
   for (const auto& surface : this->Surfaces)
   {
-    const HapticSurface::Snapshot snapshot = surface->Touched();
-    if (snapshot && !surface->IsGripped())
+    const std::optional<RayHit> hit =
+      surface->IsGripped() ? std::nullopt : surface->CastRay(from, direction);
+    if (hit && (!nearest || hit->Distance < nearest->Distance))
     {
-      const RigidPose& pose = surface->Pose();
-      std::optional<RayHit> hit =
-        haptics::CastRay(*snapshot, pose.PointToSurface(from), pose.VectorToSurface(direction));
-      if (hit && (!nearest || hit->Distance < nearest->Distance))
-      {
-        hit->Normal = pose.VectorToWorld(hit->Normal);
-        nearest = hit;
-      }
+      nearest = hit;
     }
   }
   return nearest;
 }
 
-void SurfaceSet::Published(std::uint64_t generation)
+void SurfaceSet::OnPublished(std::uint64_t generation)
 {
   std::vector<Entry>& entries = this->Generations[generation];
   entries.clear();
@@ -266,10 +266,10 @@ void SurfaceSet::Published(std::uint64_t generation)
     vtkPolyData* const prepared = surface->Prepared();
     const bool isExchanged = prepared &&
       prepared->GetNumberOfPolys() ==
-        static_cast<vtkIdType>(surface->Touched()->Triangles().size()) &&
-      HasExchangedCorners(prepared, *surface->Touched());
-    entries.push_back(
-      { surface->Id(), surface->OriginalCellIds(), surface->Touched(), prepared, isExchanged });
+        static_cast<vtkIdType>(surface->TouchableSurface()->Triangles().size()) &&
+      HasExchangedCorners(prepared, *surface->TouchableSurface());
+    entries.push_back({ surface->Id(), surface->OriginalCellIds(), surface->TouchableSurface(),
+      prepared, isExchanged });
   }
 }
 
@@ -309,9 +309,10 @@ SceneCell SurfaceSet::Locate(const TickRecord& tick) const
 vtkPolyData* SurfaceSet::PreparedOf(const Entry& entry) const
 {
   const HapticSurface* const surface = this->Find(entry.Id);
-  vtkPolyData* const prepared =
-    surface && surface->Touched() == entry.Touched ? surface->Prepared() : entry.Prepared.Get();
-  const auto triangles = static_cast<vtkIdType>(entry.Touched->Triangles().size());
+  vtkPolyData* const prepared = surface && surface->TouchableSurface() == entry.Surface
+    ? surface->Prepared()
+    : entry.Prepared.Get();
+  const auto triangles = static_cast<vtkIdType>(entry.Surface->Triangles().size());
   return prepared && prepared->GetNumberOfPolys() == triangles ? prepared : nullptr;
 }
 
@@ -355,7 +356,7 @@ Vec3 SurfaceSet::PointOf(const TickRecord& tick, const HapticSurface& surface) c
   {
     return surface.Pose().PointToSurface(tick.Position);
   }
-  const Vec3& origin = entry->Touched->Origin();
+  const Vec3& origin = entry->Surface->Origin();
   return { tick.Local[0] + origin[0], tick.Local[1] + origin[1], tick.Local[2] + origin[2] };
 }
 
@@ -366,7 +367,7 @@ void SurfaceSet::Probe(const TickRecord& tick, vtkHapticProbe* probe) const
   {
     const HapticSurface* surface = this->Find(entry->Id);
     vtkHapticProbeFiller::SetContact(probe, tick,
-      { entry->Id, surface ? surface->Name : "", this->Locate(tick).Cell, entry->Touched,
+      { entry->Id, surface ? surface->Name : "", this->Locate(tick).Cell, entry->Surface,
         surface ? surface->Pose() : RigidPose() },
       this->PreparedOf(*entry));
   }
@@ -381,7 +382,7 @@ std::vector<Vec3> SurfaceSet::ActiveCorners(const TickRecord& tick) const
     const HapticSurface* shown = entry ? this->Find(entry->Id) : nullptr;
     if (shown)
     {
-      const TriangleSurface& surface = *entry->Touched;
+      const TriangleSurface& surface = *entry->Surface;
       for (const std::int32_t corner :
         surface.Triangles()[static_cast<std::size_t>(tick.Constraints[i].Triangle)])
       {

@@ -79,6 +79,8 @@ public:
   bool HaveMoved() const;
   /// Whether a surface has changed before the servo has come to its last change.
   bool IsWaiting() const;
+  /// Whether a surface comes in patches, which follow the hand.
+  bool IsInPatches() const;
   /// Whether a surface is being built in the background.
   bool IsBuilding() const;
   /// 0 to 1, over all that is being built or was since nothing was; 1 where nothing is.
@@ -86,11 +88,11 @@ public:
   void CancelBuilds();
 
   /// What a god-object is to touch now.
-  std::vector<TouchedSurface> Touched() const;
+  std::vector<TouchedSurface> TouchableSurfaces() const;
   /// Where a ray first meets what is touched, in lengths of `direction`; world frame.
   std::optional<RayHit> CastRay(const Vec3& from, const Vec3& direction) const;
-  /// Remembers what Touched() gave under the number it was published with.
-  void Published(std::uint64_t generation);
+  /// Remembers what TouchableSurfaces() gave under the number it was published with.
+  void OnPublished(std::uint64_t generation);
   /// Forgets what was published before `generation`.
   void Forget(std::uint64_t generation);
   /// Forgets what was published before or after `generation`.
@@ -114,9 +116,9 @@ private:
   {
     int Id;
     HapticSurface::CellIds Cells;
-    HapticSurface::Snapshot Touched;
-    vtkSmartPointer<vtkPolyData> Prepared; ///< Touched's triangles, with the arrays of then
-    bool HasExchangedCorners;              ///< Touched's, against Prepared's
+    HapticSurface::Snapshot Surface;
+    vtkSmartPointer<vtkPolyData> Prepared; ///< Surface's triangles, with the arrays of then
+    bool HasExchangedCorners;              ///< Surface's, against Prepared's
   };
   vtkPolyData* PreparedOf(const Entry& entry) const;
   const Entry* Find(const TickRecord& tick, int constraint) const;

@@ -34,7 +34,7 @@ vtkAlgorithmOutput* MapperSource::GeometryOf(vtkMapper* mapper, std::string& err
 }
 
 ActorSource::ActorSource(vtkActor* actor)
-  : Drawn(actor)
+  : Prop(actor)
 {
 }
 
@@ -42,19 +42,19 @@ ActorSource::~ActorSource() = default;
 
 vtkAlgorithmOutput* ActorSource::Geometry(std::string& error)
 {
-  return this->GeometryOf(this->Drawn->GetMapper(), error);
+  return this->GeometryOf(this->Prop->GetMapper(), error);
 }
 
 Matrix4 ActorSource::Matrix()
 {
   Matrix4 matrix;
-  this->Drawn->GetMatrix(matrix.data());
+  this->Prop->GetMatrix(matrix.data());
   return matrix;
 }
 
 bool ActorSource::IsShown()
 {
-  return this->Drawn->GetVisibility() && this->Drawn->GetPickable();
+  return this->Prop->GetVisibility() && this->Prop->GetPickable();
 }
 
 PartSource::~PartSource() = default;

@@ -78,10 +78,10 @@ public:
   Matrix4 Matrix() override;
   bool Moves() const override { return true; }
   bool IsShown() override;
-  vtkActor* Actor() const override { return this->Drawn; }
+  vtkActor* Actor() const override { return this->Prop; }
 
 private:
-  vtkSmartPointer<vtkActor> Drawn;
+  vtkSmartPointer<vtkActor> Prop;
 };
 
 /// A place in an assembly, as the assembly says.

@@ -1,9 +1,9 @@
 #include "vtkHapticGrip.h"
 
 #include "haptics/Scene/CarriedSurface.h"
-#include "haptics/Scene/HapticSceneInternals.h"
+#include "haptics/Scene/GrippingHand.h"
+#include "haptics/Scene/SurfaceSet.h"
 #include "vtkActor.h"
-#include "vtkHapticScene.h"
 #include "vtkObjectFactory.h"
 
 #include <utility>
@@ -17,7 +17,7 @@ constexpr const char* NoActor =
 }
 
 vtkHapticGrip::vtkHapticGrip()
-  : Carried(std::make_unique<haptics::CarriedSurface>())
+  : Object(std::make_unique<haptics::CarriedSurface>())
 {
 }
 
@@ -30,142 +30,142 @@ bool vtkHapticGrip::Fail(const std::string& message)
   return false;
 }
 
-void vtkHapticGrip::SetScene(vtkHapticScene* scene)
+void vtkHapticGrip::SetHand(haptics::GrippingHand* hand)
 {
-  this->Scene = scene;
-  if (!scene)
+  this->Hand = hand;
+  if (!hand)
   {
-    this->Carried = std::make_unique<haptics::CarriedSurface>();
+    this->Object = std::make_unique<haptics::CarriedSurface>();
   }
 }
 
 int vtkHapticGrip::GetSurface()
 {
-  return this->Carried->Surface();
+  return this->Object->Surface();
 }
 
 bool vtkHapticGrip::Take()
 {
-  if (!this->Scene || !this->Scene->GetTouching())
+  if (!this->Hand || this->Hand->TouchedSurface() < 0)
   {
     return this->Fail("A grip needs a contact, and nothing is touched. Touch a surface first.");
   }
-  return this->TakeSurface(this->Scene->GetTouchedSurface());
+  return this->TakeSurface(this->Hand->TouchedSurface());
 }
 
 bool vtkHapticGrip::TakeSurface(int id)
 {
   this->ErrorMessage.clear();
-  if (!this->Scene)
+  if (!this->Hand)
   {
     return this->Fail("There is no surface " + std::to_string(id) +
       " to grip: this grip belongs to no scene. Use what vtkHapticScene::GetGrip() returns.");
   }
-  this->Scene->PullSurfaces(); // it may have been hidden meanwhile
-  vtkHapticScene::Internals& scene = *this->Scene->Internal;
-  const haptics::HapticSurface* surface = scene.Surfaces.Find(id);
-  const std::string name = scene.Surfaces.Title(id);
-  if (surface && this->Carried->Surface() == id)
+  this->Hand->PullSurfaces(); // it may have been hidden meanwhile
+  haptics::SurfaceSet& surfaces = this->Hand->Surfaces();
+  const haptics::HapticSurface* surface = surfaces.Find(id);
+  const std::string name = surfaces.Title(id);
+  if (surface && this->Object->Surface() == id)
   {
     return true;
   }
   if (!surface)
   {
-    return this->Fail(this->Scene->GetSurfaceAssembly(id)
+    return this->Fail(surfaces.AssemblyOf(id)
         ? name + " is a whole assembly. Grip one of its parts, which have ids of their own."
         : "There is no surface " + std::to_string(id) + " to grip.");
   }
-  if (!this->Scene->GetSurfaceActor(id))
+  if (!surfaces.ActorOf(id))
   {
     return this->Fail(name + NoActor);
   }
-  if (!surface->Touched())
+  if (!surface->TouchableSurface())
   {
     return this->Fail(name + " cannot be touched, and so cannot be gripped. Show it first.");
   }
-  if (!this->Scene->IsHandThere())
+  if (!this->Hand->IsThere())
   {
     return this->Fail(
       "There is no hand to grip with. Engage() or Step() first, with the clutch off.");
   }
   this->LetGo();
-  this->Carried->Take(id, *scene.Latest, scene.Surfaces);
-  scene.Events.Add(vtkHapticScene::GripEvent, id);
-  this->Scene->PullSurfaces();
+  this->Object->Take(id, *this->Hand->LatestTick(), surfaces);
+  this->Hand->HasTaken(id);
+  this->Hand->PullSurfaces();
   this->Modified();
-  return this->Carried->Surface() == id;
+  return this->Object->Surface() == id;
 }
 
 void vtkHapticGrip::LetGo()
 {
-  if (this->Carried->IsNothing())
+  if (this->Object->IsNothing())
   {
     return;
   }
   this->Carry();
-  vtkHapticScene::Internals& scene = *this->Scene->Internal;
-  scene.Events.Add(vtkHapticScene::LetGoEvent, this->Carried->Surface());
-  this->Carried->LetGo(scene.Surfaces);
-  this->Scene->PullSurfaces(); // what moves the actor from now on is not the hand
+  this->Hand->HasLetGo(this->Object->Surface());
+  this->Object->LetGo(this->Hand->Surfaces());
+  this->Hand->PullSurfaces(); // what moves the actor from now on is not the hand
   this->Modified();
 }
 
-int vtkHapticGrip::LetGoOfLost()
+int vtkHapticGrip::ReleaseMissing()
 {
-  haptics::SurfaceSet& surfaces = this->Scene->Internal->Surfaces;
-  if (!this->Carried->IsLost(surfaces))
+  haptics::SurfaceSet& surfaces = this->Hand->Surfaces();
+  if (!this->Object->IsLost(surfaces))
   {
     return haptics::CarriedSurface::Nothing;
   }
-  const int lost = this->Carried->Surface();
-  this->Carried->LetGo(surfaces);
+  const int lost = this->Object->Surface();
+  this->Object->LetGo(surfaces);
   return lost;
 }
 
-void vtkHapticGrip::Published(std::uint64_t generation)
+void vtkHapticGrip::OnPublished(std::uint64_t generation)
 {
-  this->Carried->Published(generation);
+  this->Object->OnPublished(generation);
 }
 
-void vtkHapticGrip::Look(const haptics::TickRecord& tick)
+void vtkHapticGrip::OnTick(const haptics::TickRecord& tick)
 {
-  this->Carried->Look(tick, this->Scene->Internal->Surfaces);
+  this->Object->OnTick(tick, this->Hand->Surfaces());
 }
 
 bool vtkHapticGrip::Carry()
 {
-  vtkHapticScene::Internals& scene = *this->Scene->Internal;
-  if (this->Carried->IsNothing() || !scene.Latest)
+  const haptics::TickRecord* const latest = this->Hand->LatestTick();
+  if (this->Object->IsNothing() || !latest)
   {
     return false;
   }
-  scene.Surfaces.PullAssemblies(); // the surface of a part only stands for its actor
-  vtkActor* actor = scene.Surfaces.ActorOf(this->Carried->Surface());
-  return actor && this->Carried->Carry(*scene.Latest, actor, scene.Surfaces);
+  haptics::SurfaceSet& surfaces = this->Hand->Surfaces();
+  surfaces.PullAssemblies(); // the surface of a part only stands for its actor
+  vtkActor* actor = surfaces.ActorOf(this->Object->Surface());
+  return actor && this->Object->Carry(*latest, actor, surfaces);
 }
 
-void vtkHapticGrip::ObeyButtons(unsigned int buttons)
+void vtkHapticGrip::OnButtons(unsigned int buttons)
 {
-  const bool isThere = this->Scene->IsHandThere();
+  const bool isThere = this->Hand->IsThere();
   const bool isHeld = isThere && this->Button >= 0 && (buttons >> this->Button & 1U) != 0;
   const bool wasHeld = std::exchange(this->IsButtonHeld, isHeld);
   if (!isThere || (wasHeld && !isHeld))
   {
     this->LetGo();
   }
-  if (!isHeld || wasHeld || !this->Scene->GetTouching())
+  const int id = this->Hand->TouchedSurface();
+  if (!isHeld || wasHeld || id < 0)
   {
     return;
   }
-  const int id = this->Scene->GetTouchedSurface();
-  if (this->Scene->GetSurfaceActor(id))
+  if (this->Hand->Surfaces().ActorOf(id))
   {
     this->TakeSurface(id);
   }
   // Once: the button may be for more than this.
-  else if (this->Refused.insert(id).second)
+  else if (this->WarnedOf.insert(id).second)
   {
-    vtkWarningMacro(<< this->Scene->Internal->Surfaces.Title(id) << NoActor);
+    vtkWarningMacro(<< this->Hand->Surfaces().Title(id) << NoActor);
   }
 }
 

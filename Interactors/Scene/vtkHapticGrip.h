@@ -6,7 +6,7 @@
  * assembly, goes where the god-object goes at each vtkHapticScene::Update() or Step(): the device
  * has no more than three degrees of freedom, so nothing turns. All else is touched as ever, and
  * holds hand and part back: a point collides, not the part. What is carried is not touched, and
- * free of all else the hand feels nothing.
+ * free of all else there is no force on the hand.
  *
  * Let go, it is touched again from where it is, with the hand on the side where it was. The scene
  * lets go by itself where the surface is hidden or removed, the clutch is pressed, another is
@@ -39,10 +39,9 @@
 namespace haptics
 {
 class CarriedSurface;
+class GrippingHand;
 struct TickRecord;
 }
-
-class vtkHapticScene;
 
 class VTKHAPTICSSCENE_EXPORT vtkHapticGrip : public vtkObject
 {
@@ -80,17 +79,17 @@ public:
 #ifndef __VTK_WRAP__
   ///@{
   /**
-   * For the scene, C++ only: whose hand it is (null when that is gone); each tick, in turn; the
-   * number of each god-object that is published; the device's buttons after each update.
+   * For the scene, C++ only: its hand (null when that is gone); each tick, in turn; the number of
+   * each god-object that is published; the device's buttons after each update.
    */
-  void SetScene(vtkHapticScene* scene);
-  void Look(const haptics::TickRecord& tick);
-  void Published(std::uint64_t generation);
-  void ObeyButtons(unsigned int buttons);
+  void SetHand(haptics::GrippingHand* hand);
+  void OnTick(const haptics::TickRecord& tick);
+  void OnPublished(std::uint64_t generation);
+  void OnButtons(unsigned int buttons);
   /** Moves the actor to where the hand has it; true where it has moved. */
   bool Carry();
   /** Lets go of what cannot be touched any more; its id, or -1 where that is not so. */
-  int LetGoOfLost();
+  int ReleaseMissing();
   ///@}
 #endif
 
@@ -104,11 +103,11 @@ private:
 
   bool Fail(const std::string& message);
 
-  vtkHapticScene* Scene = nullptr;
-  std::unique_ptr<haptics::CarriedSurface> Carried;
+  haptics::GrippingHand* Hand = nullptr;
+  std::unique_ptr<haptics::CarriedSurface> Object;
   int Button = 2;
   bool IsButtonHeld = false;
-  std::set<int> Refused; // surfaces without an actor that a button was warned of
+  std::set<int> WarnedOf; // surfaces without an actor, for which a button cannot grip
   std::string ErrorMessage;
 };
 

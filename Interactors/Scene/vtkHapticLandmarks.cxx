@@ -98,7 +98,7 @@ struct vtkHapticLandmarks::Landmark
   /// The triangle's normal there, along the world's axes; of any length.
   haptics::Vec3 TriangleNormal() const
   {
-    const haptics::TriangleSurface& surface = *this->Where.Touched;
+    const haptics::TriangleSurface& surface = *this->Where.Surface;
     const haptics::Triangle& corners =
       surface.Triangles()[static_cast<std::size_t>(this->Where.Triangle)];
     haptics::Vec3 edges[2];
@@ -117,17 +117,17 @@ struct vtkHapticLandmarks::Landmark
   bool Follow(
     const std::shared_ptr<const haptics::TriangleSurface>& surface, const haptics::RigidPose& pose)
   {
-    if (surface != this->Where.Touched)
+    if (surface != this->Where.Surface)
     {
       // Snapshots that deform share their triangles; one that was scaled has equal ones.
-      if (surface == this->Refused || surface->Triangles() != this->Where.Touched->Triangles())
+      if (surface == this->Refused || surface->Triangles() != this->Where.Surface->Triangles())
       {
         this->Refused = surface;
         return false;
       }
     }
     const bool isBehind = vtkMath::Dot(this->TriangleNormal().data(), this->Normal.data()) < 0.0;
-    this->Where.Touched = surface;
+    this->Where.Surface = surface;
     this->Where.Pose = pose;
     const haptics::Triangle& corners =
       surface->Triangles()[static_cast<std::size_t>(this->Where.Triangle)];
@@ -188,8 +188,8 @@ void vtkHapticLandmarks::Follow(const haptics::SurfaceSet& surfaces)
   for (Landmark& landmark : this->Landmarks)
   {
     const haptics::HapticSurface* const surface = surfaces.Find(landmark.Probe->GetSurface());
-    const auto touched = surface ? surface->Touched() : nullptr;
-    if (touched && landmark.Where.Touched)
+    const auto touched = surface ? surface->TouchableSurface() : nullptr;
+    if (touched && landmark.Where.Surface)
     {
       moved = landmark.Follow(touched, surface->Pose()) || moved;
     }
@@ -300,9 +300,9 @@ double vtkHapticLandmarks::AlongSurfaceToPrevious(int number)
   }
   Landmark& landmark = this->Landmarks[static_cast<std::size_t>(number)];
   const vtkHapticProbe* const from = this->Landmarks[static_cast<std::size_t>(number) - 1].Probe;
-  if (landmark.Way.From != from || landmark.Way.Surface != landmark.Where.Touched)
+  if (landmark.Way.From != from || landmark.Way.Surface != landmark.Where.Surface)
   {
-    landmark.Way = { from, landmark.Where.Touched, this->FindWay(number - 1, number, nullptr) };
+    landmark.Way = { from, landmark.Where.Surface, this->FindWay(number - 1, number, nullptr) };
   }
   return landmark.Way.Length;
 }
@@ -338,8 +338,8 @@ std::string vtkHapticLandmarks::GetText(int number)
 
 bool vtkHapticLandmarks::AreOnOneSurface(int first, int second) const
 {
-  return this->Landmarks[static_cast<std::size_t>(first)].Where.Touched ==
-    this->Landmarks[static_cast<std::size_t>(second)].Where.Touched;
+  return this->Landmarks[static_cast<std::size_t>(first)].Where.Surface ==
+    this->Landmarks[static_cast<std::size_t>(second)].Where.Surface;
 }
 
 double vtkHapticLandmarks::GetGeodesicDistance(int first, int second, vtkPolyData* path)
@@ -370,7 +370,7 @@ double vtkHapticLandmarks::FindWay(int first, int second, vtkPolyData* path) con
   };
   const vtkHapticProbe::Contact& where = this->Landmarks[static_cast<std::size_t>(second)].Where;
   const haptics::GeodesicPath found =
-    haptics::FindGeodesicPath(*where.Touched, end(first), end(second));
+    haptics::FindGeodesicPath(*where.Surface, end(first), end(second));
   if (path)
   {
     path->Initialize();
@@ -516,6 +516,7 @@ void vtkHapticLandmarks::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   static const char* const distances[] = { "none", "straight", "along the surface" };
   os << indent << "Distance: " << distances[this->Distance] << "\n";
+  os << indent << "Button: " << this->Button << "\n";
   os << indent << "Landmarks: " << this->Landmarks.size() << "\n";
   for (const Landmark& landmark : this->Landmarks)
   {

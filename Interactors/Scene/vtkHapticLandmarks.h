@@ -93,7 +93,7 @@ public:
    */
   double GetDistanceToPrevious(int number);
   /**
-   * What a view writes beside a landmark: its label and the distance to the one before, in five
+   * What a view writes next to a landmark: its label and the distance to the one before, in five
    * digits with its unit, as in "2: 0.04 m". An error where there is no such number.
    */
   std::string GetText(int number);
@@ -122,6 +122,12 @@ public:
   vtkGetMacro(UnitLength, double);
   ///@}
 
+  ///@{
+  /** The device's button that drops one where the hand touches. Default 0; -1 for none, to 31. */
+  vtkSetClampMacro(Button, int, -1, 31);
+  vtkGetMacro(Button, int);
+  ///@}
+
 #ifndef __VTK_WRAP__
   /** For the scene, C++ only: takes them to where the surfaces are now. */
   void Follow(const haptics::SurfaceSet& surfaces);
@@ -145,6 +151,7 @@ private:
   std::vector<Landmark> Landmarks;
   int Distance = STRAIGHT;
   double UnitLength = 0.0;
+  int Button = 0;
   int Dropped = 0; // for labels
   vtkNew<vtkPolyData> Output;
   vtkMTimeType OutputTime = 0;

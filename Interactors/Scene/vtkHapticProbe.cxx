@@ -9,13 +9,14 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <string>
 
 vtkStandardNewMacro(vtkHapticProbe);
 
 namespace
 {
 constexpr int MostLines = 8;
-/// Places this share of a surface's size apart are told apart.
+/// Places this share of a surface's size apart have different digits.
 constexpr double Resolution = 1e-4;
 
 /// How many digits a coordinate takes for that, five at least.
@@ -31,12 +32,25 @@ int DigitsOf(double coordinate, double size)
   return static_cast<int>(std::clamp(digits, 5.0, 17.0));
 }
 
+/// The id of the touched cell in the data that its surface is the outside of, where the filter that
+/// extracted it has kept that.
+vtkIdType OriginalCell(vtkDataSetAttributes* values, vtkIdType cell)
+{
+  vtkDataArray* ids = values->GetArray("vtkOriginalCellIds");
+  return ids && ids->GetNumberOfTuples() > 0 ? static_cast<vtkIdType>(ids->GetComponent(0, 0))
+                                             : cell;
+}
+
 void WriteValues(std::ostream& text, vtkDataSetAttributes* values, int& lines)
 {
   for (int i = 0; i < values->GetNumberOfArrays() && lines < MostLines; ++i)
   {
     vtkAbstractArray* array = values->GetAbstractArray(i);
     const int components = array->GetNumberOfComponents();
+    if (array->GetName() && std::string(array->GetName()).rfind("vtk", 0) == 0)
+    {
+      continue; // the bookkeeping of filters
+    }
     text << "\n" << (array->GetName() ? array->GetName() : "(unnamed)") << "  ";
     for (int c = 0; c < components && c < 3; ++c)
     {
@@ -95,8 +109,9 @@ std::string vtkHapticProbe::GetText()
     return {};
   }
   std::ostringstream text;
-  text << this->GetSurfaceName() << "   cell " << this->Cell << "\n";
-  const double size = this->Where.Touched ? this->Where.Touched->Diagonal() : 0.0;
+  text << this->GetSurfaceName() << "   cell " << OriginalCell(this->CellValues, this->Cell)
+       << "\n";
+  const double size = this->Where.Surface ? this->Where.Surface->Diagonal() : 0.0;
   for (int axis = 0; axis < 3; ++axis)
   {
     text.precision(DigitsOf(this->Position[axis], size));

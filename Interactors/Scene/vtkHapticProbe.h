@@ -43,7 +43,7 @@ public:
   vtkGetMacro(Touching, bool);
   vtkGetMacro(Time, double); ///< of the tick [s] since the servo's start
   vtkGetMacro(Surface, int); ///< id in the scene
-  /** What people call it (vtkHapticScene::SetSurfaceName()); else "surface" and the id. */
+  /** Its name (vtkHapticSurfaces::SetName()); where it has none, "surface" and the id. */
   std::string GetSurfaceName();
   vtkGetMacro(Cell, vtkIdType); ///< id of the cell as it was given
   /** Id of a corner of the triangle as it was given, corner 0 to 2; -1 elsewhere. */
@@ -65,14 +65,18 @@ public:
   /** The first component of an array of either kind, points first; NaN where there is none. */
   double GetValue(const char* array);
 
-  /** Some lines of text: surface, cell, position, values. Empty where there is no contact. */
+  /**
+   * Some lines of text: surface, cell, position, values. Empty where there is no contact. The cell
+   * is that of the data from which a filter extracted the surface, where that kept
+   * vtkOriginalCellIds; arrays whose names begin with "vtk" are left out.
+   */
   std::string GetText();
 
 #ifndef __VTK_WRAP__
   /** The contact on the surface itself, in C++ only. */
   struct Contact
   {
-    std::shared_ptr<const haptics::TriangleSurface> Touched; ///< in a frame of its own
+    std::shared_ptr<const haptics::TriangleSurface> Surface; ///< in a frame of its own
     int Triangle = -1;                                       ///< of it
     haptics::Vec3 Position{};                                ///< GetPosition() in that frame
     haptics::RigidPose Pose;                                 ///< from that frame to the world

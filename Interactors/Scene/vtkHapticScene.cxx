@@ -2,6 +2,8 @@
 
 #include "haptics/Filters/ErrorText.h"
 #include "haptics/Scene/HapticSceneInternals.h"
+#include "haptics/Scene/Rounding.h"
+#include "haptics/Scene/TipCheck.h"
 #include "vtkActor.h"
 #include "vtkAlgorithmOutput.h"
 #include "vtkAssembly.h"
@@ -13,25 +15,45 @@
 #include "vtkHapticGrip.h"
 #include "vtkHapticLandmarks.h"
 #include "vtkHapticProbe.h"
+#include "vtkHapticReadings.h"
 #include "vtkHapticServo.h"
+#include "vtkHapticSurfaces.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 #include "vtkProp3D.h"
 #include "vtkTrivialProducer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <initializer_list>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
+namespace
+{
+/// Between two looks in virtual time at a surface in patches: as at 60 pictures a second.
+constexpr int TicksPerLook = 16;
+
+// What changes by less is rounding: a hand at rest goes to and fro by a last digit, and would be
+// drawn for it again and again. Far below all that a device can do.
+constexpr double LeastShift = 1e-12; // [m] in the hand
+constexpr double LeastForce = 1e-9;  // [N]
+
+bool IsWithin(double distance, const haptics::Vec3& now, const double last[3])
+{
+  return haptics::LargestComponent({ now[0] - last[0], now[1] - last[1], now[2] - last[2] }) <=
+    distance;
+}
+}
+
 vtkStandardNewMacro(vtkHapticScene);
 
 vtkHapticScene::vtkHapticScene()
-  : Internal(std::make_unique<Internals>())
+  : Internal(std::make_unique<Internals>(*this))
 {
-  this->Workspace->SetServo(this->Servo);
-  this->Grip->SetScene(this);
+  this->Grip->SetHand(this->Internal.get());
   this->FollowParts();
 }
 
@@ -39,7 +61,7 @@ vtkHapticScene::~vtkHapticScene()
 {
   this->Follower->SetClientData(nullptr); // somebody else may hold the parts
   this->Servo->Stop();
-  this->Grip->SetScene(nullptr);
+  this->Grip->SetHand(nullptr);
 }
 
 void vtkHapticScene::FollowParts()
@@ -55,8 +77,8 @@ void vtkHapticScene::FollowParts()
       }
     });
   this->Servo->AddObserver(vtkCommand::ErrorEvent, this->Follower);
-  for (vtkObject* part :
-    std::initializer_list<vtkObject*>{ this->Workspace, this->Grip, this->TraceRecorder })
+  for (vtkObject* part : std::initializer_list<vtkObject*>{
+         this->Surfaces, this->Workspace, this->Grip, this->TraceRecorder })
   {
     for (const unsigned long event :
       { vtkCommand::ErrorEvent, vtkCommand::WarningEvent, vtkCommand::ModifiedEvent })
@@ -69,7 +91,7 @@ void vtkHapticScene::FollowParts()
   this->TraceRecorder->AddObserver(vtkCommand::EndEvent, this->Follower);
 }
 
-void vtkHapticScene::NoticePart(vtkObject*, unsigned long event, const char* report)
+void vtkHapticScene::NoticePart(vtkObject* part, unsigned long event, const char* report)
 {
   std::string text;
   switch (event)
@@ -94,6 +116,15 @@ void vtkHapticScene::NoticePart(vtkObject*, unsigned long event, const char* rep
       this->PullState(); // what came before belongs to the trace before
       break;
     default:
+      if (part == this->Workspace)
+      {
+        this->TraceRecorder->SetUnitLength(this->Workspace->GetUnitLength());
+        this->Landmarks->SetUnitLength(this->Workspace->GetUnitLength());
+      }
+      else if (part == this->Surfaces)
+      {
+        this->ReportBuilds();
+      }
       this->Modified();
   }
 }
@@ -126,17 +157,17 @@ int vtkHapticScene::AddSurface(vtkProp3D* prop)
   }
   if (vtkActor* const actor = vtkActor::SafeDownCast(prop))
   {
-    if (const haptics::HapticSurface* known = this->Internal->Surfaces.Find(actor))
+    if (const haptics::HapticSurface* known = this->Surfaces->GetSet().Find(actor))
     {
       return known->Id();
     }
     this->Modified();
-    return this->Internal->Surfaces.Add(std::make_unique<haptics::ActorSource>(actor));
+    return this->Surfaces->GetSet().Add(std::make_unique<haptics::ActorSource>(actor));
   }
   if (vtkAssembly* const assembly = vtkAssembly::SafeDownCast(prop))
   {
     this->Modified();
-    return this->Internal->Surfaces.Add(assembly);
+    return this->Surfaces->GetSet().Add(assembly);
   }
   this->Fail(std::string("A ") + prop->GetClassName() +
     " shows no surface. Give a vtkActor or a vtkAssembly; of a volume that of a contour.");
@@ -156,7 +187,7 @@ int vtkHapticScene::AddSurface(vtkAlgorithmOutput* geometry)
     return -1;
   }
   this->Modified();
-  return this->Internal->Surfaces.Add(std::make_unique<haptics::PortSource>(geometry));
+  return this->Surfaces->GetSet().Add(std::make_unique<haptics::PortSource>(geometry));
 }
 
 int vtkHapticScene::AddSurface(vtkPolyData* geometry)
@@ -173,7 +204,7 @@ int vtkHapticScene::AddSurface(vtkPolyData* geometry)
 
 bool vtkHapticScene::RemoveSurface(int id)
 {
-  const bool isRemoved = this->Internal->Surfaces.Remove(id);
+  const bool isRemoved = this->Surfaces->GetSet().Remove(id);
   if (isRemoved)
   {
     this->Modified();
@@ -185,132 +216,33 @@ bool vtkHapticScene::RemoveSurface(vtkProp3D* prop)
 {
   if (vtkAssembly* const assembly = vtkAssembly::SafeDownCast(prop))
   {
-    return this->RemoveSurface(this->Internal->Surfaces.FindAssembly(assembly));
+    return this->RemoveSurface(this->Surfaces->GetSet().FindAssembly(assembly));
   }
   vtkActor* const actor = vtkActor::SafeDownCast(prop);
-  const haptics::HapticSurface* surface = this->Internal->Surfaces.Find(actor);
+  const haptics::HapticSurface* surface = this->Surfaces->GetSet().Find(actor);
   return surface && this->RemoveSurface(surface->Id());
 }
 
 void vtkHapticScene::RemoveAllSurfaces()
 {
-  this->Internal->Surfaces.Clear();
+  this->Surfaces->GetSet().Clear();
   this->Modified();
-}
-
-int vtkHapticScene::GetNumberOfSurfaces()
-{
-  return static_cast<int>(this->Internal->Surfaces.All().size());
-}
-
-int vtkHapticScene::GetSurfaceId(int i)
-{
-  return i >= 0 && i < this->GetNumberOfSurfaces() ? this->Internal->Surfaces.All()[i]->Id() : -1;
-}
-
-vtkAssembly* vtkHapticScene::GetSurfaceAssembly(int id)
-{
-  return this->Internal->Surfaces.AssemblyOf(id);
-}
-
-vtkActor* vtkHapticScene::GetSurfaceActor(int id)
-{
-  return this->Internal->Surfaces.ActorOf(id);
-}
-
-vtkGodObjectFilter* vtkHapticScene::GetSurfaceFilter(int id)
-{
-  const haptics::HapticSurface* surface = this->Internal->Surfaces.Find(id);
-  return surface ? surface->Filter() : nullptr;
-}
-
-vtkHapticProperties* vtkHapticScene::GetSurfaceProperties(int id)
-{
-  vtkGodObjectFilter* filter = this->GetSurfaceFilter(id);
-  return filter ? filter->GetProperties() : nullptr;
-}
-
-bool vtkHapticScene::SetSurfacePropertyArray(
-  int id, int property, int association, const char* name)
-{
-  vtkGodObjectFilter* filter = this->GetSurfaceFilter(id);
-  if (filter)
-  {
-    filter->SetInputArrayToProcess(property, 0, 0, association, name ? name : "");
-  }
-  return filter != nullptr;
-}
-
-bool vtkHapticScene::SetSurfaceName(int id, const char* name)
-{
-  haptics::HapticSurface* surface = this->Internal->Surfaces.Find(id);
-  if (surface)
-  {
-    surface->Name = name ? name : "";
-  }
-  return surface != nullptr;
-}
-
-std::string vtkHapticScene::GetSurfaceName(int id)
-{
-  const haptics::HapticSurface* surface = this->Internal->Surfaces.Find(id);
-  return surface ? surface->Name : "";
-}
-
-bool vtkHapticScene::IsSurfaceTouchable(int id)
-{
-  return this->Internal->Surfaces.IsTouchable(id);
-}
-
-bool vtkHapticScene::IsSurfaceOutdated(int id)
-{
-  const haptics::HapticSurface* surface = this->Internal->Surfaces.Find(id);
-  return surface && surface->IsOutdated();
-}
-
-void vtkHapticScene::SetBackgroundBuilding(bool background)
-{
-  if (background != this->Internal->BackgroundBuilding)
-  {
-    this->Internal->BackgroundBuilding = background;
-    this->Modified();
-  }
-}
-
-bool vtkHapticScene::GetBackgroundBuilding()
-{
-  return this->Internal->BackgroundBuilding;
-}
-
-bool vtkHapticScene::IsBuilding()
-{
-  return this->Internal->Surfaces.IsBuilding();
-}
-
-double vtkHapticScene::GetBuildProgress()
-{
-  return this->Internal->Surfaces.BuildProgress();
-}
-
-void vtkHapticScene::CancelBuild()
-{
-  this->Internal->Surfaces.CancelBuilds();
-  this->TellOfBuilds();
 }
 
 void vtkHapticScene::FinishBuilds()
 {
-  while (this->IsBuilding()) // what has changed during one is built by the next
+  // What has changed during one is built by the next.
+  while (this->Surfaces->IsBuilding() && !this->Internal->IsPulling)
   {
-    this->Internal->Worker.Wait();
+    this->Surfaces->GetWorker().Wait();
     this->PullSurfaces();
   }
 }
 
-void vtkHapticScene::TellOfBuilds()
+void vtkHapticScene::ReportBuilds()
 {
-  const bool isBuilding = this->IsBuilding();
-  const double progress = this->GetBuildProgress();
+  const bool isBuilding = this->Surfaces->IsBuilding();
+  const double progress = this->Surfaces->GetBuildProgress();
   if (isBuilding != this->Internal->WasBuilding || progress != this->Internal->BuildProgress)
   {
     this->Internal->WasBuilding = isBuilding;
@@ -321,31 +253,48 @@ void vtkHapticScene::TellOfBuilds()
 
 bool vtkHapticScene::PullSurfaces()
 {
-  if (!this->Internal->BackgroundBuilding && this->IsBuilding())
+  if (this->Internal->IsPulling)
   {
-    this->Internal->Worker.Wait(); // what was begun before it was turned off
+    return false; // a source that waits, for a server or a file, may let a timer's event in
   }
-  this->Internal->Worker.Collect();
+  haptics::BackgroundWorker& worker = this->Surfaces->GetWorker();
+  const bool isInBackground = this->Surfaces->GetBackgroundBuilding();
+  if (!isInBackground && this->Surfaces->IsBuilding())
+  {
+    worker.Wait(); // what was begun before it was turned off
+  }
+  worker.Collect();
   haptics::PullSettings settings;
-  settings.Worker = this->Internal->BackgroundBuilding ? &this->Internal->Worker : nullptr;
+  settings.Worker = isInBackground ? &worker : nullptr;
   const int state = this->Servo->GetState();
   settings.IsLive = state == vtkHapticServo::Running || state == vtkHapticServo::Stepping;
   settings.IsRunning = state == vtkHapticServo::Running;
-  settings.IsTaken = this->Servo->GetLatestRecord().Generation == this->Internal->Published;
-  settings.Now = this->Servo->GetTime();
+  settings.IsTaken =
+    this->Servo->GetLatestRecord().Generation == this->Internal->PublishedGeneration;
+  settings.Now = this->Servo->GetLatestRecord().Time;
   settings.Interval = settings.Now - std::exchange(this->Internal->LastPull, settings.Now);
   settings.Scale = this->Workspace->GetScale();
+  if (settings.IsLive && this->Internal->Latest)
+  {
+    const haptics::TickRecord& latest = this->Servo->GetLatestRecord();
+    settings.Hand = haptics::HandState{ latest.Time, latest.Hip, latest.Position, latest.IsAstray,
+      latest.AwaitsData };
+  }
   std::vector<std::string> errors;
-  haptics::SurfaceSet& surfaces = this->Internal->Surfaces;
+  haptics::SurfaceSet& surfaces = this->Surfaces->GetSet();
   surfaces.PullAssemblies();
-  const bool changed = surfaces.Pull(settings, errors);
-  const int lost = this->Grip->LetGoOfLost();
+  this->Internal->IsPulling = true;
+  const bool isNew = surfaces.Pull(settings, errors);
+  this->Internal->IsPulling = false;
+  const bool changed = this->PullTip() || isNew;
+  const int lost = this->Grip->ReleaseMissing();
   if (changed)
   {
-    const std::uint64_t generation =
-      this->Servo->PublishGodObject(std::make_unique<haptics::GodObject>(surfaces.Touched()));
-    this->Internal->Published = generation;
-    this->Grip->Published(generation);
+    const std::uint64_t generation = this->Servo->PublishGodObject(
+      std::make_unique<haptics::GodObject>(surfaces.TouchableSurfaces(),
+        this->Internal->HasBall ? haptics::Tip::Ball : haptics::Tip::Point));
+    this->Internal->PublishedGeneration = generation;
+    this->Grip->OnPublished(generation);
     if (!this->Servo->IsRunning())
     {
       // All records are drained: no tick can refer to others than the last, and what the servo has
@@ -353,7 +302,7 @@ bool vtkHapticScene::PullSurfaces()
       const auto& latest = this->Internal->Latest;
       surfaces.ForgetAllBut(latest ? latest->Generation : generation);
     }
-    surfaces.Published(generation);
+    surfaces.OnPublished(generation);
   }
   this->Landmarks->Follow(surfaces);
   for (const std::string& error : errors)
@@ -374,27 +323,8 @@ bool vtkHapticScene::PullSurfaces()
     this->Internal->Events.Add(vtkHapticScene::LetGoEvent, lost);
     this->Internal->Events.Dispatch(this); // after a grip that waits to be reported
   }
-  this->TellOfBuilds();
+  this->ReportBuilds();
   return changed || surfaces.HaveMoved();
-}
-
-bool vtkHapticScene::IntersectRay(const double from[3], const double direction[3], double hit[3])
-{
-  double normal[3];
-  return this->IntersectRay(from, direction, hit, normal);
-}
-
-bool vtkHapticScene::IntersectRay(
-  const double from[3], const double direction[3], double hit[3], double normal[3])
-{
-  const std::optional<haptics::RayHit> nearest = this->Internal->Surfaces.CastRay(
-    { { from[0], from[1], from[2] } }, { { direction[0], direction[1], direction[2] } });
-  for (int i = 0; nearest && i < 3; ++i)
-  {
-    hit[i] = from[i] + nearest->Distance * direction[i];
-    normal[i] = nearest->Normal[static_cast<std::size_t>(i)];
-  }
-  return nearest.has_value();
 }
 
 //--- the run --------------------------------------------------------------------------------------
@@ -422,6 +352,42 @@ void vtkHapticScene::SetStiffness(double stiffness)
 double vtkHapticScene::GetStiffness()
 {
   return this->Servo->GetStiffness();
+}
+
+void vtkHapticScene::SetTipRadius(double radius)
+{
+  this->ForgetMessage();
+  if (!(radius >= 0.0) || !std::isfinite(radius))
+  {
+    std::ostringstream text;
+    text << "The radius of the tip must be finite and not below 0 m, but is " << radius
+         << "; it stays " << this->TipRadius << " m.";
+    this->Fail(text.str());
+    return;
+  }
+  if (this->TipRadius != radius)
+  {
+    this->TipRadius = radius;
+    this->Modified();
+  }
+}
+
+double vtkHapticScene::GetEffectiveTipRadius()
+{
+  return this->Servo->GetTipRadius();
+}
+
+/// Takes in the tip, as far as it has room. True where the god-object has to become a ball.
+bool vtkHapticScene::PullTip()
+{
+  const std::string fault = haptics::TipCheck::Check(
+    this->TipRadius, this->Surfaces->GetSet(), this->Workspace, this->GetDevice());
+  this->Internal->WasTipFault = this->Internal->WasTipFault && !fault.empty();
+  this->Internal->TipFault = fault;
+  const double radius = fault.empty() ? this->TipRadius : 0.0;
+  this->Servo->SetTipRadius(radius);
+  const bool hadBall = std::exchange(this->Internal->HasBall, radius > 0.0);
+  return this->Internal->HasBall && !hadBall;
 }
 
 bool vtkHapticScene::Engage()
@@ -532,12 +498,17 @@ int vtkHapticScene::Step(int n)
   while (done < n)
   {
     // The servo keeps 16,384 records: drain them before they are lost.
-    const bool isWaiting = this->Internal->Surfaces.IsWaiting();
-    const int portion = isWaiting ? 1 : std::min(n - done, 8192);
+    const bool isWaiting = this->Surfaces->GetSet().IsWaiting();
+    // Patches follow the hand as they would in real time, once it is known where that is now.
+    const bool isInPatches = this->Surfaces->GetSet().IsInPatches();
+    const int longest = isWaiting || (isInPatches && done == 0) ? 1
+      : isInPatches                                             ? TicksPerLook
+                                                                : 8192;
+    const int portion = std::min(n - done, longest);
     const int stepped = this->Servo->Step(portion);
     done += stepped;
     this->PullState();
-    if (isWaiting)
+    if (isWaiting || isInPatches)
     {
       this->PullSurfaces(); // it takes part as soon as it can
       this->FinishBuilds();
@@ -564,10 +535,10 @@ bool vtkHapticScene::PullState()
   }
   this->NoticeDevice();
   const bool changed = this->TakeState();
-  this->ObeyButtons();
+  this->OnButtons();
   if (this->Internal->Latest) // what came before has been probed by now
   {
-    this->Internal->Surfaces.Forget(this->Internal->Latest->Generation);
+    this->Surfaces->GetSet().Forget(this->Internal->Latest->Generation);
   }
   this->Internal->Events.Dispatch(this);
   // After the events, so that an observer of a grip finds the actor where it was.
@@ -591,21 +562,21 @@ void vtkHapticScene::PullRecords()
   records.clear();
   this->Servo->DrainRecords(records);
 
-  this->TraceRecorder->CountLost(this->Servo->GetNumberOfLostRecords());
+  this->TraceRecorder->OnLostTicks(this->Servo->GetReadings()->GetNumberOfLostRecords());
   for (const haptics::TickRecord& record : records)
   {
-    this->Grip->Look(record);
-    this->Internal->Events.Take(record, this->Internal->Surfaces, this);
+    this->Grip->OnTick(record);
+    this->Internal->Events.Take(record, this->Surfaces->GetSet(), this);
     if (this->TraceRecorder->GetRecording())
     {
-      this->TraceRecorder->Add(record, this->Internal->Surfaces.Trace(record));
+      this->TraceRecorder->Add(record, this->Surfaces->GetSet().Trace(record));
     }
   }
   if (!records.empty())
   {
     this->Internal->Latest = records.back();
-    this->Internal->LatestCell = this->Internal->Surfaces.Locate(records.back());
-    this->Internal->Events.EndOfTicks(this->Internal->Surfaces, this);
+    this->Internal->LatestCell = this->Surfaces->GetSet().Locate(records.back());
+    this->Internal->Events.EndOfTicks(this->Surfaces->GetSet(), this);
   }
 }
 
@@ -620,8 +591,7 @@ bool vtkHapticScene::TakeState()
   const bool live = state == vtkHapticServo::Running || state == vtkHapticServo::Stepping;
   const haptics::Vec3 force = live ? latest.WorldForce : haptics::Vec3{};
   const bool touching = live && latest.NumberOfConstraints > 0;
-  const bool squeezed = live && latest.Status == haptics::UpdateStatus::Squeezed;
-  const bool overloaded = live && latest.Status == haptics::UpdateStatus::Overloaded;
+  const haptics::UpdateStatus status = live ? latest.Status : haptics::UpdateStatus();
   const haptics::SceneCell cell = touching ? this->Internal->LatestCell : haptics::SceneCell();
 
   if (!live)
@@ -633,20 +603,26 @@ bool vtkHapticScene::TakeState()
     this->UpdateProbe(touching);
   }
 
-  const bool changed =
-    !std::equal(latest.Hip.begin(), latest.Hip.end(), this->HapticInterfacePoint) ||
-    !std::equal(latest.Position.begin(), latest.Position.end(), this->GodObject) ||
-    !std::equal(force.begin(), force.end(), this->Force) || touching != this->Touching ||
-    squeezed != this->Squeezed || overloaded != this->Overloaded ||
+  const double largest =
+    std::max(haptics::LargestComponent(latest.Hip), haptics::LargestComponent(latest.Position));
+  const double shift =
+    LeastShift * this->Workspace->GetScale() + haptics::CoordinateRounding * largest;
+  const double step = force == haptics::Vec3{} ? 0.0 : LeastForce; // none is none
+  const bool isSame = IsWithin(shift, latest.Hip, this->HapticInterfacePoint) &&
+    IsWithin(shift, latest.Position, this->GodObject) && IsWithin(step, force, this->Force) &&
+    touching == this->Touching;
+  const bool changed = !isSame || status != this->Internal->Status ||
     this->Internal->LandmarksSeen != this->Landmarks->GetMTime();
 
-  std::copy(latest.Hip.begin(), latest.Hip.end(), this->HapticInterfacePoint);
-  std::copy(latest.Position.begin(), latest.Position.end(), this->GodObject);
-  std::copy(force.begin(), force.end(), this->Force);
-  this->Penetration = touching ? latest.Penetration : 0.0;
+  if (!isSame)
+  {
+    std::copy(latest.Hip.begin(), latest.Hip.end(), this->HapticInterfacePoint);
+    std::copy(latest.Position.begin(), latest.Position.end(), this->GodObject);
+    std::copy(force.begin(), force.end(), this->Force);
+    this->Penetration = touching ? latest.Penetration : 0.0;
+  }
   this->Touching = touching;
-  this->Squeezed = squeezed;
-  this->Overloaded = overloaded;
+  this->Internal->Status = status;
   this->TouchedSurface = cell.Surface;
   this->TouchedCell = cell.Cell;
 
@@ -655,66 +631,25 @@ bool vtkHapticScene::TakeState()
   return changed;
 }
 
-vtkHapticServo* vtkHapticScene::GetServo()
-{
-  return this->Servo;
-}
-
-vtkHapticWorkspace* vtkHapticScene::GetWorkspace()
-{
-  return this->Workspace;
-}
-
-vtkHapticGrip* vtkHapticScene::GetGrip()
-{
-  return this->Grip;
-}
-
-vtkHapticTraceRecorder* vtkHapticScene::GetTraceRecorder()
-{
-  return this->TraceRecorder;
-}
-
 void vtkHapticScene::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  const vtkIndent next = indent.GetNextIndent();
   const auto print = [&](const char* name, const double v[3])
   { os << indent << name << ": (" << v[0] << ", " << v[1] << ", " << v[2] << ")\n"; };
   os << indent << "Engaged: " << (this->Engaged ? "yes" : "no") << "\n";
-  os << indent << "Surfaces: " << this->GetNumberOfSurfaces() << "\n";
-  for (const auto& surface : this->Internal->Surfaces.All())
-  {
-    os << next << surface->Id() << ": " << (surface->Moves() ? "actor" : "geometry") << ", "
-       << (surface->Touched() ? "touchable" : "not touchable") << "\n";
-  }
+  os << indent << "TipRadius: " << this->TipRadius << " m, in effect "
+     << this->GetEffectiveTipRadius() << " m\n";
   print("HapticInterfacePoint [world unit]", this->HapticInterfacePoint);
   print("GodObject [world unit]", this->GodObject);
   print("Force [N]", this->Force);
   os << indent << "Penetration [world unit]: " << this->Penetration << "\n";
   os << indent << "Touching: " << (this->Touching ? "yes" : "no") << "\n";
-  os << indent << "Squeezed: " << (this->Squeezed ? "yes" : "no") << "\n";
-  os << indent << "Overloaded: " << (this->Overloaded ? "yes" : "no") << "\n";
   os << indent << "TouchedSurface: " << this->TouchedSurface << "\n";
   os << indent << "TouchedCell: " << this->TouchedCell << "\n";
   os << indent << "ErrorMessage: " << this->ErrorMessage << "\n";
-  const auto printPart = [&](const char* name, vtkObject* part)
-  {
-    os << indent << name << ":\n";
-    part->PrintSelf(os, next);
-  };
-  printPart("Workspace", this->Workspace);
-  printPart("Grip", this->Grip);
-  printPart("TraceRecorder", this->TraceRecorder);
-  printPart("Servo", this->Servo);
 }
 
 //--- the hand -------------------------------------------------------------------------------------
-
-vtkHapticLandmarks* vtkHapticScene::GetLandmarks()
-{
-  return this->Landmarks;
-}
 
 int vtkHapticScene::DropLandmark()
 {
@@ -727,14 +662,15 @@ int vtkHapticScene::DropLandmark()
   return this->Landmarks->Drop(this->GetProbe());
 }
 
-void vtkHapticScene::ObeyButtons()
+void vtkHapticScene::OnButtons()
 {
-  for (const haptics::TickRecord& tick : this->Internal->Events.TakePresses(this->LandmarkButton))
+  for (const haptics::TickRecord& tick :
+    this->Internal->Events.TakePresses(this->Landmarks->GetButton()))
   {
     if (tick.NumberOfConstraints > 0)
     {
       auto probe = vtkSmartPointer<vtkHapticProbe>::New();
-      this->Internal->Surfaces.Probe(tick, probe);
+      this->Surfaces->GetSet().Probe(tick, probe);
       if (this->Landmarks->Drop(probe) >= 0)
       {
         this->Internal->Events.Add(
@@ -743,15 +679,8 @@ void vtkHapticScene::ObeyButtons()
     }
   }
   const unsigned int buttons = this->Internal->Latest ? this->Internal->Latest->Buttons : 0;
-  this->Workspace->ObeyButtons(buttons);
-  this->Grip->ObeyButtons(buttons);
-}
-
-bool vtkHapticScene::IsHandThere()
-{
-  const int state = this->Servo->GetState();
-  return (state == vtkHapticServo::Running || state == vtkHapticServo::Stepping) &&
-    this->Internal->Latest && !this->Workspace->GetClutched();
+  this->Workspace->OnButtons(buttons);
+  this->Grip->OnButtons(buttons);
 }
 
 void vtkHapticScene::UpdateProbe(bool touching)
@@ -759,7 +688,7 @@ void vtkHapticScene::UpdateProbe(bool touching)
   this->Probe = vtkSmartPointer<vtkHapticProbe>::New();
   if (touching)
   {
-    this->Internal->Surfaces.Probe(*this->Internal->Latest, this->Probe);
+    this->Surfaces->GetSet().Probe(*this->Internal->Latest, this->Probe);
   }
 }
 
@@ -779,7 +708,7 @@ const std::vector<haptics::TickRecord>& vtkHapticScene::GetNewTicks()
 
 std::vector<haptics::Vec3> vtkHapticScene::GetActiveCorners()
 {
-  return this->Touching ? this->Internal->Surfaces.ActiveCorners(*this->Internal->Latest)
+  return this->Touching ? this->Surfaces->GetSet().ActiveCorners(*this->Internal->Latest)
                         : std::vector<haptics::Vec3>();
 }
 
@@ -790,7 +719,7 @@ bool vtkHapticScene::FitWorkspace(vtkCamera* camera)
   this->ForgetMessage();
   this->PullSurfaces();
   vtkBoundingBox box;
-  for (const auto& surface : this->Internal->Surfaces.All())
+  for (const auto& surface : this->Surfaces->GetSet().All())
   {
     surface->AddBounds(box);
   }
@@ -802,6 +731,12 @@ bool vtkHapticScene::FitWorkspace(vtkCamera* camera)
   }
   double bounds[6];
   box.GetBounds(bounds);
+  return this->FitWorkspace(bounds, camera);
+}
+
+bool vtkHapticScene::FitWorkspace(const double bounds[6], vtkCamera* camera)
+{
+  this->ForgetMessage();
   return this->Workspace->Fit(bounds, camera);
 }
 
@@ -810,7 +745,7 @@ bool vtkHapticScene::EngageInView(vtkCamera* camera)
   if (!this->IsEngaged() && this->GetDevice() && !this->Workspace->GetChosen())
   {
     this->PullSurfaces();
-    const auto& surfaces = this->Internal->Surfaces.All();
+    const auto& surfaces = this->Surfaces->GetSet().All();
     const bool any = std::any_of(surfaces.begin(), surfaces.end(),
       [](const auto& surface)
       {
@@ -829,23 +764,13 @@ bool vtkHapticScene::EngageInView(vtkCamera* camera)
 void vtkHapticScene::WarnOfReach()
 {
   const std::string warning =
-    this->Internal->Reach.Check(this->Internal->Surfaces, this->Workspace, this->GetDevice());
+    this->Internal->Reach.Check(this->Surfaces->GetSet(), this->Workspace, this->GetDevice());
   if (!warning.empty())
   {
     vtkWarningMacro(<< warning);
   }
-}
-
-void vtkHapticScene::SetUnitLength(double metres)
-{
-  this->ForgetMessage();
-  this->Workspace->SetUnitLength(metres);
-  const double unitLength = this->GetUnitLength();
-  this->TraceRecorder->SetUnitLength(unitLength);
-  this->Landmarks->SetUnitLength(unitLength);
-}
-
-double vtkHapticScene::GetUnitLength()
-{
-  return this->Workspace->GetUnitLength();
+  if (!this->Internal->TipFault.empty() && !std::exchange(this->Internal->WasTipFault, true))
+  {
+    this->Fail(this->Internal->TipFault);
+  }
 }

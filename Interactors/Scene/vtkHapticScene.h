@@ -3,14 +3,13 @@
  * @brief   Couples a haptic device, any number of surfaces and the servo loop: touch a picture.
  *
  * Add surfaces (actors as a view shows them, or geometry), give a device, Engage(): from then on
- * the servo thread feels the surfaces at 1 kHz. Call Update() about as often as the picture is
+ * the servo thread renders their forces at 1 kHz. Call Update() about as often as the picture is
  * drawn; it takes in changed surfaces, drains the servo's records and reports whether anything
  * moved. vtkInteractorStyleHaptic calls it from a timer. The scene does not draw: a vtkHapticView
  * shows it, and a program without one links no rendering library.
  *
- * What else a hand does is the business of objects that the scene hands out: where its reach lies
- * (GetWorkspace()), what it carries (GetGrip()), the trace of its ticks (GetTraceRecorder()), the
- * points that it marks (GetLandmarks()), and the loop (GetServo()).
+ * The scene itself keeps what is touched, the run, and the state after the last tick. The rest is
+ * done by its parts, which it hands out: see vtkHapticSceneParts.
  *
  * Frames: surfaces, HIP and god-object are in the world frame [world unit]; device positions,
  * forces and stiffness in the device frame [m, N, N/m]. The workspace transform maps device to
@@ -25,19 +24,16 @@
  *
  * Every method is for the GUI thread.
  *
- * @sa vtkHapticWorkspace vtkHapticGrip vtkHapticTraceRecorder vtkHapticLandmarks vtkHapticServo
- * vtkHapticDevice vtkGodObjectFilter vtkHapticView vtkInteractorStyleHaptic
+ * @sa vtkHapticSceneParts vtkHapticDevice vtkGodObjectFilter vtkHapticView vtkInteractorStyleHaptic
  */
 #ifndef Haptics_vtkHapticScene_h
 #define Haptics_vtkHapticScene_h
 
 #include "haptics/Math/Vec3.h"
 #include "vtkCommand.h"
-#include "vtkHapticTraceRecorder.h"
-#include "vtkHapticWorkspace.h"
+#include "vtkHapticSceneParts.h"
 #include "vtkHapticsSceneModule.h"
 #include "vtkNew.h"
-#include "vtkObject.h"
 #include "vtkSmartPointer.h"
 
 #include <memory>
@@ -51,25 +47,18 @@ struct TickRecord;
 
 class vtkActor;
 class vtkAlgorithmOutput;
-class vtkAssembly;
 class vtkCallbackCommand;
 class vtkCamera;
-class vtkGodObjectFilter;
 class vtkHapticDevice;
-class vtkHapticGrip;
-class vtkHapticLandmarks;
 class vtkHapticProbe;
-class vtkHapticProperties;
-class vtkHapticServo;
-class vtkMatrix4x4;
 class vtkPolyData;
 class vtkProp3D;
 
-class VTKHAPTICSSCENE_EXPORT vtkHapticScene : public vtkObject
+class VTKHAPTICSSCENE_EXPORT vtkHapticScene : public vtkHapticSceneParts
 {
 public:
   static vtkHapticScene* New();
-  vtkTypeMacro(vtkHapticScene, vtkObject);
+  vtkTypeMacro(vtkHapticScene, vtkHapticSceneParts);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
@@ -77,7 +66,7 @@ public:
    * taken in everything: the getters return the state after the last tick, the call data what was
    * at the event's own tick. In the order of the ticks; within one tick buttons, then contact, then
    * overload or squeeze. What happened between two updates is not lost, but for slides, of which
-   * each update reports one at most, last. Probes are made only for events that somebody observes.
+   * each update reports one at most, last. Probes are made only for events that have an observer.
    *
    * Python: decorate the observer with vtkmodules.util.misc.calldata_type, VTK_OBJECT (of
    * vtkmodules.util.vtkConstants) for a probe and VTK_INT for a number.
@@ -94,7 +83,7 @@ public:
     DeviceStateEvent,   ///< int*: a vtkHapticDevice::DeviceState
     OverloadEvent,      ///< vtkHapticProbe: too many triangles in one place; held where it is safe
     LandmarkEvent,      ///< int*: how many landmarks there are, after one came by a button
-    BuildEvent,         ///< no data; a background build began, got on or ended: GetBuildProgress()
+    BuildEvent,         ///< no data; a background build began, got on or ended: see GetSurfaces()
     GripEvent,          ///< int*: the id of the surface that the hand carries now
     LetGoEvent,         ///< int*: the id of the surface that it does not carry any more
     SqueezeEvent, ///< vtkHapticProbe: surfaces have closed in and leave the hand no place: no force
@@ -144,67 +133,6 @@ public:
   void RemoveAllSurfaces();
   ///@}
 
-  int GetNumberOfSurfaces();
-  /** The id of the i-th surface, 0 <= i < GetNumberOfSurfaces(); -1 elsewhere. */
-  int GetSurfaceId(int i);
-  /** The actor of a surface; null where it was added as geometry or is not in the scene. */
-  vtkActor* GetSurfaceActor(int id);
-  /** The assembly that a surface is a part of, or that has this id as a whole; null elsewhere. */
-  vtkAssembly* GetSurfaceAssembly(int id);
-  /** The filter that prepares a surface: side, engine, report. Null where there is no such id. */
-  vtkGodObjectFilter* GetSurfaceFilter(int id);
-  /** How a surface feels: friction, stiffness from data and so on. Null where there is no such id.
-   */
-  vtkHapticProperties* GetSurfaceProperties(int id);
-  /**
-   * Chooses the data array of the surface that a property comes from (a number of
-   * vtkHapticProperties::PropertyType), or the side of each cell (vtkGodObjectFilter::SIDE_ARRAY):
-   * vtkDataObject::FIELD_ASSOCIATION_POINTS or _CELLS, and its name; none where that is null or
-   * empty. False where there is no such id.
-   */
-  bool SetSurfacePropertyArray(int id, int property, int association, const char* name);
-  ///@{
-  /**
-   * What people call a surface: its read-out and its messages say so. Default none, then they say
-   * "surface" and its id. False where there is no such id; the name of none is "".
-   */
-  bool SetSurfaceName(int id, const char* name);
-  std::string GetSurfaceName(int id);
-  ///@}
-  /** Whether a surface can be felt now: shown, not gripped, its geometry good at least once. */
-  bool IsSurfaceTouchable(int id);
-  /**
-   * Whether what is touched of a surface is older than what is shown, because its newest geometry
-   * or matrix is no good; the error said why. The read-out says so while it is touched.
-   */
-  bool IsSurfaceOutdated(int id);
-
-  ///@{
-  /**
-   * Whether a surface whose geometry has changed is cleaned and built in the background, so that
-   * Update() and Engage() return at once. Until it is built what was touched before is touched on;
-   * what changes meanwhile is built next, in its newest state. Upstream filters still run on the
-   * calling thread. Default off; the viewer and ParaView turn it on.
-   *
-   * A build works on a copy of the points, and shares the cells: code that writes into the memory
-   * of a vtkCellArray, instead of replacing it as VTK's filters do, has to wait for IsBuilding() to
-   * be false. Step() waits for all builds, so that it gives the same result in every run.
-   */
-  void SetBackgroundBuilding(bool background);
-  bool GetBackgroundBuilding();
-  vtkBooleanMacro(BackgroundBuilding, bool);
-  ///@}
-  ///@{
-  /**
-   * Whether a surface is being built in the background, and how far all that are have come: 0 to
-   * 1, and 1 where none is. As of the last Update(), which takes in what is done.
-   */
-  bool IsBuilding();
-  double GetBuildProgress();
-  ///@}
-  /** Gives up the builds: what is touched stays, till the geometry changes again. */
-  void CancelBuild();
-
   ///@{
   /** The device, null by default. Changing it releases the scene first. */
   void SetDevice(vtkHapticDevice* device);
@@ -216,47 +144,39 @@ public:
   void SetStiffness(double stiffness);
   double GetStiffness();
   ///@}
-
   ///@{
   /**
-   * Where a ray first meets a surface that can be touched, on a side that can be touched, and the
-   * normal of the triangle there, of unit length and against the ray; world frame, `direction` of
-   * any length. False, and the rest as it was, where it meets none.
+   * The radius of the tip [m], device frame: the hand is a ball about the HIP, which stays outside
+   * of the surfaces, rounds edges and comes into no gap narrower than itself. 0, the default: a
+   * point. Finite and >= 0; any other value is an error, and the last one stays. GetGodObject() is
+   * the ball's centre; probe, events and landmarks are where it touches.
+   *
+   * One larger than half of what the device reaches, or than half of the largest surface in the
+   * hand, is an error, once until it fits: meanwhile the hand is a point, and
+   * GetEffectiveTipRadius() is 0. Takes effect with the next Update(), Step() or Engage(). A ball
+   * that overlaps a surface, because it starts there or has grown, is smaller at first: it may
+   * leave, comes no deeper, and is pushed out as it grows to its size, within 0.13 s.
+   *
+   * With a tip each tick is made in one step, whatever the SubstepLimit.
    */
-  bool IntersectRay(const double from[3], const double direction[3], double hit[3]);
-  bool IntersectRay(
-    const double from[3], const double direction[3], double hit[3], double normal[3]);
+  void SetTipRadius(double radius);
+  vtkGetMacro(TipRadius, double);
+  double GetEffectiveTipRadius();
   ///@}
-
   ///@{
   /**
-   * Where the reach of the device lies in the world. Never null. While it was never set nor fitted,
-   * surfaces the largest of which has more than 30 times the size of what the device then reaches,
-   * in millimetres for instance, or less than a hundredth of it are a warning, once, when the scene
-   * engages or steps.
-   */
-  vtkHapticWorkspace* GetWorkspace();
-  /**
-   * Fits it to the bounds of the surfaces that can be touched, see vtkHapticWorkspace::Fit(). One
-   * that is built for the first time in the background counts already. False and an error where no
-   * surface can be touched or there is no device.
+   * Fits the workspace to the bounds of the surfaces that can be touched, or to `bounds` (xmin,
+   * xmax, ymin, ymax, zmin, zmax; world frame): see vtkHapticWorkspace::Fit(). One that is built
+   * for the first time in the background counts already. False and an error where no surface can be
+   * touched or there is no device.
+   *
+   * While it was never set nor fitted, surfaces the largest of which has more than 30 times the
+   * size of what the device then reaches, in millimetres for instance, or less than a hundredth of
+   * it are a warning, once, when the scene engages or steps.
    */
   bool FitWorkspace(vtkCamera* camera = nullptr);
+  bool FitWorkspace(const double bounds[6], vtkCamera* camera = nullptr);
   ///@}
-  ///@{
-  /**
-   * Length of a world unit [m]: 0.001 for surfaces in millimetres. Default 0: not known. A trace
-   * then has the unit of its lengths, and a workspace that was never set nor fitted lets surfaces
-   * have their true size in the hand. Range 1e-100 to 1e100; anything else is an error, and the
-   * last one stays.
-   */
-  void SetUnitLength(double metres);
-  double GetUnitLength();
-  ///@}
-  /** What the hand carries. Never null. */
-  vtkHapticGrip* GetGrip();
-  /** Keeps the trace of the ticks, which come with Update() and Step(). Never null. */
-  vtkHapticTraceRecorder* GetTraceRecorder();
 
   ///@{
   /**
@@ -291,7 +211,10 @@ public:
   int Step(int n);
 
   ///@{
-  /** State after the last Update() or Step(); zeros before the first. */
+  /**
+   * State after the last Update() or Step(); zeros before the first. Of the latest tick, or of one
+   * that differs from it by rounding: by under 1e-12 m in the hand and 1e-9 N.
+   */
   vtkGetVector3Macro(HapticInterfacePoint, double); ///< world frame [world unit]
   vtkGetVector3Macro(GodObject, double);            ///< world frame [world unit]
   vtkGetVector3Macro(Force, double);   ///< on the hand, the world's axes [N]; 0 when released
@@ -300,33 +223,14 @@ public:
   vtkGetMacro(TouchedSurface, int);    ///< id of the surface touched, else -1
   vtkGetMacro(TouchedCell, vtkIdType); ///< id of its cell as it was given, else -1
   ///@}
-  ///@{
-  /**
-   * Why there is less force than one would expect, after the last Update() or Step(). Squeezed:
-   * surfaces that move have closed in and leave the hand no place, so there is none until they do.
-   * Overloaded: more triangles in one place than a tick may look at; the god-object is held there.
-   * False when released. The read-out says so too.
-   */
-  vtkGetMacro(Squeezed, bool);
-  vtkGetMacro(Overloaded, bool);
-  ///@}
-
   /**
    * The contact after the last Update() or Step(): ids, barycentric position, the values of every
    * array. Another object after each change; never null. Made when asked for.
    */
   vtkHapticProbe* GetProbe();
 
-  /** The landmarks. Never null. */
-  vtkHapticLandmarks* GetLandmarks();
   /** Drops a landmark where the hand touches; its number, or -1 and an error in free space. */
   int DropLandmark();
-
-  ///@{
-  /** The device's button that drops a landmark. Default 0; -1 for none, at most 31. */
-  vtkSetClampMacro(LandmarkButton, int, -1, 31);
-  vtkGetMacro(LandmarkButton, int);
-  ///@}
 
   /** The ticks that the last look at the servo has taken in, oldest first. C++ only. */
   const std::vector<haptics::TickRecord>& GetNewTicks();
@@ -335,8 +239,6 @@ public:
    * each; world frame. C++ only.
    */
   std::vector<haptics::Vec3> GetActiveCorners();
-  /** The servo: rate, statistics, priority. Its device and surfaces are this scene's business. */
-  vtkHapticServo* GetServo();
   /**
    * What went wrong last; empty where nothing has. A call that can fail (Engage(), Step(),
    * FitWorkspace() and so on) begins with none, so that it is empty after one that succeeds; but
@@ -344,79 +246,48 @@ public:
    */
   const char* GetErrorMessage() { return this->ErrorMessage.c_str(); }
 
-  ///@{
-  /** Conveniences: the methods of GetWorkspace(). */
-  bool SetWorkspaceTransform(vtkMatrix4x4* m) { return this->Ask()->SetTransform(m); }
-  vtkMatrix4x4* GetWorkspaceTransform() { return this->Workspace->GetTransform(); }
-  bool FitWorkspace(const double bounds[6], vtkCamera* camera = nullptr)
-  {
-    return this->Ask()->Fit(bounds, camera);
-  }
-  bool ScaleWorkspace(double factor) { return this->Ask()->Scale(factor); }
-  void ResetWorkspace() { this->Workspace->Reset(); }
-  void SetClutched(bool clutched) { this->Workspace->SetClutched(clutched); }
-  bool GetClutched() { return this->Workspace->GetClutched(); }
-  ///@}
-  ///@{
-  /** Conveniences: the methods of GetTraceRecorder(). */
-  void StartRecording() { this->TraceRecorder->Start(); }
-  void StopRecording() { this->TraceRecorder->Stop(); }
-  vtkPolyData* GetTrace() { return this->TraceRecorder->GetTrace(); }
-  ///@}
-
 protected:
   vtkHapticScene();
   ~vtkHapticScene() override;
+
+  void ForgetMessage() override; // unless it is of a surface
 
 private:
   vtkHapticScene(const vtkHapticScene&) = delete;
   void operator=(const vtkHapticScene&) = delete;
 
-  friend class vtkHapticGrip;
   class Internals;
   std::unique_ptr<Internals> Internal;
 
   void Fail(const std::string& message);
   void FollowParts();
   void NoticePart(vtkObject* part, unsigned long event, const char* report);
-  void ForgetMessage(); // unless it is of a surface
-  vtkHapticWorkspace* Ask()
-  {
-    this->ForgetMessage();
-    return this->Workspace;
-  }
   bool OpenDevice(vtkHapticDevice* device);
   bool PullSurfaces();
   void FinishBuilds();
-  void TellOfBuilds();
+  void ReportBuilds();
+  bool PullTip();
   void WarnOfReach();
   bool PullState();
   void PullRecords();
   bool TakeState();
   void NoticeDevice();
-  void ObeyButtons();
-  bool IsHandThere();
+  void OnButtons();
   void UpdateProbe(bool touching);
 
-  vtkNew<vtkHapticServo> Servo;
-  vtkNew<vtkHapticWorkspace> Workspace;
-  vtkNew<vtkHapticGrip> Grip;
-  vtkNew<vtkHapticTraceRecorder> TraceRecorder;
-  vtkNew<vtkHapticLandmarks> Landmarks;
   vtkNew<vtkCallbackCommand> Follower;   // of the parts
   vtkSmartPointer<vtkHapticProbe> Probe; // null until asked for
-  int LandmarkButton = 0;
   std::string ErrorMessage;
   bool IsMessageOfSurface = false;
   bool HasFaultySurface = false; ///< as of the last look at them
+
+  double TipRadius = 0.0; // as it was set
 
   double HapticInterfacePoint[3] = { 0.0, 0.0, 0.0 };
   double GodObject[3] = { 0.0, 0.0, 0.0 };
   double Force[3] = { 0.0, 0.0, 0.0 };
   double Penetration = 0.0;
   bool Touching = false;
-  bool Squeezed = false;
-  bool Overloaded = false;
   int TouchedSurface = -1;
   vtkIdType TouchedCell = -1;
   bool Engaged = false;

@@ -1,7 +1,7 @@
 #include "vtkHapticServo.h"
 
+#include "haptics/Devices/MonotonicClock.h"
 #include "haptics/Scene/RunRecorder.h"
-#include "haptics/Servo/MonotonicClock.h"
 #include "haptics/Servo/RealTimePriority.h"
 #include "haptics/Servo/SafetySettings.h"
 #include "haptics/Servo/ServoCycle.h"
@@ -11,6 +11,7 @@
 #include "haptics/Tick/TickRecord.h"
 #include "vtkCommand.h"
 #include "vtkHapticDevice.h"
+#include "vtkHapticReadings.h"
 #include "vtkHapticSafety.h"
 #include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
@@ -50,11 +51,6 @@ constexpr double NanosecondsInSecond = 1e9;
 std::uint64_t Nanoseconds(double seconds)
 {
   return static_cast<std::uint64_t>(std::llround(NanosecondsInSecond * seconds));
-}
-
-void Copy(const haptics::Vec3& from, double to[3])
-{
-  std::copy(from.begin(), from.end(), to);
 }
 
 static_assert(static_cast<int>(haptics::ServoState::Stalled) == vtkHapticServo::Stalled &&
@@ -185,6 +181,43 @@ void vtkHapticServo::SetMaximumForce(double force)
     this->Configure();
     this->Modified();
   }
+}
+
+void vtkHapticServo::SetSubstepLimit(int limit)
+{
+  limit = std::clamp(limit, 1, haptics::GodObject::LargestNumberOfSubsteps);
+  if (this->Internal->Settings.SubstepLimit != limit)
+  {
+    this->Internal->Settings.SubstepLimit = limit;
+    this->Configure();
+    this->Modified();
+  }
+}
+
+int vtkHapticServo::GetSubstepLimit()
+{
+  return this->Internal->Settings.SubstepLimit;
+}
+
+void vtkHapticServo::SetTipRadius(double radius)
+{
+  if (!(radius >= 0.0) || !std::isfinite(radius))
+  {
+    vtkErrorMacro("The radius of the tip must be finite and not below 0 m, but is "
+      << radius << "; it stays " << this->GetTipRadius() << " m.");
+    return;
+  }
+  if (this->Internal->Settings.TipRadius != radius)
+  {
+    this->Internal->Settings.TipRadius = radius;
+    this->Configure();
+    this->Modified();
+  }
+}
+
+double vtkHapticServo::GetTipRadius()
+{
+  return this->Internal->Settings.TipRadius;
 }
 
 double vtkHapticServo::GetStiffnessLimit()
@@ -348,7 +381,6 @@ bool vtkHapticServo::Start()
   timing.WatchdogTime = Nanoseconds(this->Safety->GetWatchdogTime());
   timing.MissedShare = this->Safety->GetMissedTickShare();
   timing.RealTimePriority = this->RealTimePriority;
-  timing.DevicePaced = this->DevicePaced;
   std::string error;
   if (!this->Internal->Loop.Start(timing, error))
   {
@@ -496,16 +528,6 @@ void vtkHapticServo::Fail(const std::string& message)
 
 //--- readings -------------------------------------------------------------------------------------
 
-vtkTypeInt64 vtkHapticServo::GetNumberOfHalts()
-{
-  return static_cast<vtkTypeInt64>(this->Internal->Loop.GetNumberOfHalts());
-}
-
-vtkTypeInt64 vtkHapticServo::GetNumberOfLostRecords()
-{
-  return static_cast<vtkTypeInt64>(this->Internal->Cycle.GetNumberOfLostRecords());
-}
-
 std::uint64_t vtkHapticServo::PublishGodObject(std::unique_ptr<haptics::GodObject> godObject)
 {
   if (!godObject)
@@ -531,56 +553,20 @@ haptics::ServoReport vtkHapticServo::GetReport() const
   return this->Internal->Statistics.Report();
 }
 
+vtkHapticReadings* vtkHapticServo::GetReadings()
+{
+  const bool isLive = this->State == Running || this->State == Stepping;
+  this->Readings->Read(this->GetLatestRecord(), this->GetReport(), isLive,
+    static_cast<vtkTypeInt64>(this->Internal->Loop.GetNumberOfHalts()),
+    static_cast<vtkTypeInt64>(this->Internal->Cycle.GetNumberOfLostRecords()));
+  return this->Readings;
+}
+
 const char* vtkHapticServo::GetStateAsString()
 {
   static const char* const names[] = { "Stopped", "Running", "Stepping", "DeviceLost",
     "InvalidPosition", "InvalidForce", "Stalled", "Overrun", "Interrupted" };
   return names[this->State];
-}
-
-void vtkHapticServo::GetHapticInterfacePoint(double position[3])
-{
-  Copy(this->GetLatestRecord().Hip, position);
-}
-
-void vtkHapticServo::GetGodObject(double position[3])
-{
-  Copy(this->GetLatestRecord().Position, position);
-}
-
-void vtkHapticServo::GetForce(double force[3])
-{
-  Copy(this->GetLatestRecord().Force, force);
-}
-
-void vtkHapticServo::GetWorldForce(double force[3])
-{
-  Copy(this->GetLatestRecord().WorldForce, force);
-}
-
-void vtkHapticServo::GetDevicePosition(double position[3])
-{
-  Copy(this->GetLatestRecord().DevicePosition, position);
-}
-
-unsigned int vtkHapticServo::GetButtons()
-{
-  return this->GetLatestRecord().Buttons;
-}
-
-double vtkHapticServo::GetPenetration()
-{
-  return this->GetLatestRecord().Penetration;
-}
-
-int vtkHapticServo::GetNumberOfConstraints()
-{
-  return this->GetLatestRecord().NumberOfConstraints;
-}
-
-double vtkHapticServo::GetTime()
-{
-  return this->GetLatestRecord().Time;
 }
 
 vtkTypeInt64 vtkHapticServo::GetNumberOfRecordedTicks()
@@ -598,122 +584,9 @@ vtkTypeInt64 vtkHapticServo::GetNumberOfTicks()
   return static_cast<vtkTypeInt64>(this->GetReport().Ticks);
 }
 
-vtkTypeInt64 vtkHapticServo::GetNumberOfMissedTicks()
-{
-  return static_cast<vtkTypeInt64>(this->GetReport().MissedTicks);
-}
-
-double vtkHapticServo::GetMeasuredRate()
-{
-  return this->GetReport().Rate();
-}
-
-double vtkHapticServo::GetMeanPeriod()
-{
-  return this->GetReport().MeanPeriod;
-}
-
-double vtkHapticServo::GetPeriodRatio()
-{
-  return this->GetReport().PeriodRatio;
-}
-
-double vtkHapticServo::GetMaximumPeriod()
-{
-  return this->GetReport().MaximumPeriod;
-}
-
-double vtkHapticServo::GetPeriodQuantile(double fraction)
-{
-  return haptics::Quantile(this->GetReport().Periods, fraction);
-}
-
-double vtkHapticServo::GetTickTimeQuantile(double fraction)
-{
-  return haptics::Quantile(this->GetReport().TickTimes, fraction);
-}
-
-double vtkHapticServo::GetMaximumTickTime()
-{
-  return this->GetReport().MaximumTickTime;
-}
-
-int vtkHapticServo::GetNumberOfHistogramBins()
-{
-  return haptics::LogHistogram::NumberOfBins;
-}
-
-double vtkHapticServo::GetHistogramEdge(int bin)
-{
-  return bin < 0 || bin > haptics::LogHistogram::NumberOfBins
-    ? 0.0
-    : static_cast<double>(haptics::LogHistogram::LowerEdge(bin)) / NanosecondsInSecond;
-}
-
-vtkTypeInt64 vtkHapticServo::GetPeriodCount(int bin)
-{
-  return bin < 0 || bin >= haptics::LogHistogram::NumberOfBins
-    ? 0
-    : static_cast<vtkTypeInt64>(this->GetReport().Periods[static_cast<std::size_t>(bin)]);
-}
-
-vtkTypeInt64 vtkHapticServo::GetTickTimeCount(int bin)
-{
-  return bin < 0 || bin >= haptics::LogHistogram::NumberOfBins
-    ? 0
-    : static_cast<vtkTypeInt64>(this->GetReport().TickTimes[static_cast<std::size_t>(bin)]);
-}
-
-double vtkHapticServo::GetCurrentStiffness()
-{
-  return this->GetLatestRecord().Stiffness;
-}
-
-double vtkHapticServo::GetObservedEnergy()
-{
-  return this->GetLatestRecord().PassivityBalance;
-}
-
-double vtkHapticServo::GetEnergyTank()
-{
-  return this->GetLatestRecord().Tank;
-}
-
-unsigned int vtkHapticServo::GetForceLimits()
-{
-  return this->GetLatestRecord().Limits;
-}
-
-std::string vtkHapticServo::DescribeForceLimits()
-{
-  struct Name
-  {
-    haptics::SafetyLimit Bit;
-    const char* Text;
-  };
-  static const Name names[] = { { haptics::ForceClamped, "largest force" },
-    { haptics::ForceSlewed, "slew limit" }, { haptics::SoftStarted, "soft start" },
-    { haptics::StiffnessLimited, "stiffness limit" },
-    { haptics::PassivityDamped, "passivity control" }, { haptics::PausedForce, "paused" },
-    { haptics::EnergyHeldBack, "energy tank" } };
-  std::string text;
-  for (const Name& name : names)
-  {
-    if ((this->GetForceLimits() & name.Bit) != 0)
-    {
-      text += (text.empty() ? "" : ", ") + std::string(name.Text);
-    }
-  }
-  return text;
-}
-
 void vtkHapticServo::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  const haptics::TickRecord& tick = this->GetLatestRecord();
-  const haptics::ServoReport report = this->GetReport();
-  const auto print = [&os, indent](const char* name, const haptics::Vec3& v, const char* unit)
-  { os << indent << name << ": (" << v[0] << ", " << v[1] << ", " << v[2] << ")" << unit << "\n"; };
   os << indent << "Device: " << this->Device.Get() << "\n";
   os << indent << "Rate: " << this->Rate << " Hz\n";
   os << indent << "RealTimePriority: " << (this->RealTimePriority ? "on" : "off") << "\n";
@@ -723,27 +596,14 @@ void vtkHapticServo::PrintSelf(ostream& os, vtkIndent indent)
      << this->GetEffectiveStiffness() << " N/m\n";
   os << indent << "MaximumForce: " << this->MaximumForce << " N, in effect "
      << this->GetEffectiveMaximumForce() << " N\n";
+  os << indent << "SubstepLimit: " << this->GetSubstepLimit() << "\n";
+  os << indent << "TipRadius: " << this->GetTipRadius() << " m\n";
   os << indent << "Paused: " << (this->Paused ? "yes" : "no") << "\n";
-  os << indent << "DevicePaced: " << (this->DevicePaced ? "on" : "off") << "\n";
   os << indent << "RecordingFileName: " << this->RecordingFileName << "\n";
   os << indent << "State: " << this->GetStateAsString() << "\n";
   os << indent << "ErrorMessage: " << this->ErrorMessage << "\n";
-  print("HapticInterfacePoint", tick.Hip, "");
-  print("GodObject", tick.Position, "");
-  print("Force", tick.Force, " N");
-  os << indent << "Penetration: " << tick.Penetration << "\n";
-  os << indent << "NumberOfConstraints: " << tick.NumberOfConstraints << "\n";
-  os << indent << "CurrentStiffness: " << tick.Stiffness << " N/m\n";
-  os << indent << "ObservedEnergy: " << tick.PassivityBalance << " J\n";
-  os << indent << "EnergyTank: " << tick.Tank << " J\n";
-  os << indent << "ForceLimits: " << this->DescribeForceLimits() << "\n";
-  os << indent << "NumberOfHalts: " << this->GetNumberOfHalts() << "\n";
-  os << indent << "NumberOfTicks: " << report.Ticks << "\n";
-  os << indent << "NumberOfMissedTicks: " << report.MissedTicks << "\n";
-  os << indent << "MeasuredRate: " << report.Rate() << " Hz\n";
-  os << indent << "PeriodRatio: " << report.PeriodRatio << " s\n";
-  os << indent << "MaximumPeriod: " << report.MaximumPeriod << " s\n";
-  os << indent << "NumberOfLostRecords: " << this->GetNumberOfLostRecords() << "\n";
+  os << indent << "Readings:\n";
+  this->GetReadings()->PrintSelf(os, indent.GetNextIndent());
   os << indent << "Safety:\n";
   this->GetSafety()->PrintSelf(os, indent.GetNextIndent());
 }

@@ -24,7 +24,7 @@
  *
  * Every method is for the GUI thread; none but Start(), Stop() and SetDevice() waits for the servo.
  *
- * @sa vtkHapticScene vtkHapticDevice haptics::ServoCycle haptics::ServoLoop
+ * @sa vtkHapticReadings vtkHapticScene vtkHapticDevice haptics::ServoCycle haptics::ServoLoop
  */
 #ifndef Haptics_vtkHapticServo_h
 #define Haptics_vtkHapticServo_h
@@ -42,6 +42,7 @@
 #include <vector>
 
 class vtkHapticDevice;
+class vtkHapticReadings;
 class vtkHapticSafety;
 class vtkMatrix4x4;
 
@@ -95,7 +96,6 @@ public:
   /// Whether Start() asks for real-time priority. Default on. See GetPriorityNote().
   vtkSetMacro(RealTimePriority, bool);
   vtkGetMacro(RealTimePriority, bool);
-  vtkBooleanMacro(RealTimePriority, bool);
   ///@}
   ///@{
   /// The longest gap between two ticks [s] that is no fault. Default 0.5, clamped to 0.05 to 60;
@@ -112,14 +112,13 @@ public:
    *
    * What is used is not above the device's MaximumStiffness, nor what its Damping and Latency allow
    * (see vtkHapticSafety): GetStiffnessLimit(), VTK_DOUBLE_MAX without a device, and
-   * GetEffectiveStiffness() where all periods are exact, GetCurrentStiffness() as the latest tick
-   * had it; 0 before the first tick.
+   * GetEffectiveStiffness() where all periods are exact. What the latest tick had is among
+   * GetReadings().
    */
   void SetStiffness(double stiffness);
   vtkGetMacro(Stiffness, double);
   double GetStiffnessLimit();
   double GetEffectiveStiffness();
-  double GetCurrentStiffness();
   ///@}
   ///@{
   /**
@@ -131,6 +130,29 @@ public:
   vtkGetMacro(MaximumForce, double);
   double GetEffectiveMaximumForce();
   ///@}
+  ///@{
+  /**
+   * In how many substeps a tick may follow the HIP's straight way since the tick before: 1 to 16;
+   * other values are clamped. Default 1: off; 4 are enough nearly everywhere. A tick has more than
+   * one only where what holds the god-object changes on the way and leads it elsewhere, as on rough
+   * ground and in folds: there one coarse step can end in another valley than a hand that moves
+   * slowly. Each costs about as much as a tick; a ball goes in one. All guarantees of
+   * haptics::GodObject hold, whatever the limit. Acts at the next tick.
+   */
+  void SetSubstepLimit(int limit);
+  int GetSubstepLimit();
+  ///@}
+  ///@{
+  /**
+   * The radius of the ball about the HIP that touches [m], device frame; 0, the default: a point.
+   * Finite and >= 0; any other value is an error and changes nothing. Acts at the next tick, on
+   * god-objects that are published as haptics::Tip::Ball. A ball that overlaps is smaller at
+   * first, and is pushed out as it grows to its size, over 128 ticks. See
+   * haptics::GodObject::SetTipRadius().
+   */
+  void SetTipRadius(double radius);
+  double GetTipRadius();
+  ///@}
 
   /// What keeps the force from hurting: slew, soft start, stiffness, watchdog, passivity. Not null.
   vtkHapticSafety* GetSafety();
@@ -141,14 +163,6 @@ public:
   void SetPaused(bool paused);
   vtkGetMacro(Paused, bool);
   vtkBooleanMacro(Paused, bool);
-  ///@}
-
-  ///@{
-  /// Whether a device that sets the pace (USB devices do) is waited for instead of the clock.
-  /// Default on; other devices are not concerned. Read by Start().
-  vtkSetMacro(DevicePaced, bool);
-  vtkGetMacro(DevicePaced, bool);
-  vtkBooleanMacro(DevicePaced, bool);
   ///@}
 
   ///@{
@@ -234,67 +248,11 @@ public:
   /// Whether the last Start() got real-time priority, and what to do where not; empty before.
   const char* GetPriorityNote() { return this->PriorityNote.c_str(); }
 
-  ///@{
-  /// The latest tick as of the last Update(), Step() or Stop(); zeros before the first.
-  void GetHapticInterfacePoint(double position[3]); ///< world frame [world unit]
-  void GetGodObject(double position[3]);            ///< world frame [world unit]
-  void GetForce(double force[3]);                   ///< device frame [N]
-  void GetWorldForce(double force[3]);              ///< along the world's axes [N]
-  void GetDevicePosition(double position[3]);       ///< HIP, device frame [m]
-  unsigned int GetButtons();                        ///< bit i is set while button i is held
-  double GetPenetration();                          ///< of the HIP [world unit]
-  int GetNumberOfConstraints();                     ///< 0 in free space, to 3
-  double GetTime();                                 ///< [s] since the start
-  /// The passivity observer's balance [J]: what the hand and the device's damping have put in and
-  /// not got out; 0 without passivity control and without properties.
-  double GetObservedEnergy();
-  /// What surfaces with properties may still spend [J]; see haptics::SurfaceForce.
-  double GetEnergyTank();
-  ///@}
-
-  ///@{
-  /// What kept the latest force from being the plain spring's: bits of haptics::SafetyLimit, and
-  /// their names; 0 and empty where nothing did.
-  unsigned int GetForceLimits();
-  std::string DescribeForceLimits();
-  ///@}
-
-  ///@{
-  /**
-   * How regular the ticks of this run are, or of the last one were; readable while it runs. In
-   * virtual time the periods are exact and only the tick times are measured.
-   *
-   * A period T is the time between two ticks [s]. PeriodRatio is E[T^2]/E[T], the T that a stable
-   * stiffness depends on; MaximumPeriod is T_max; missed ticks are deadlines that passed while a
-   * tick ran or the thread slept. A tick time is the work of one tick [s]. A quantile is the
-   * duration [s] that the given share (0 to 1) of the ticks did not exceed, at most 3.2 % too long.
-   */
+  /// Reads the latest tick and the statistics, all at one moment. The same object each time, never
+  /// null.
+  vtkHapticReadings* GetReadings();
+  /// Ticks of this run, or of the last one.
   vtkTypeInt64 GetNumberOfTicks();
-  vtkTypeInt64 GetNumberOfMissedTicks();
-  vtkTypeInt64 GetNumberOfHalts(); ///< how often the watchdog took the force from the device
-  double GetMeasuredRate();        ///< ticks a second [Hz]; 0 before the second tick
-  double GetMeanPeriod();
-  double GetPeriodRatio();
-  double GetMaximumPeriod();
-  double GetPeriodQuantile(double fraction);
-  double GetTickTimeQuantile(double fraction);
-  double GetMaximumTickTime();
-  ///@}
-
-  ///@{
-  /**
-   * The histograms behind the quantiles: the number of bins, the edge [s] at which a bin starts
-   * (0 to the number of bins), and what it has counted. 0 for a bin that does not exist.
-   */
-  static int GetNumberOfHistogramBins();
-  static double GetHistogramEdge(int bin);
-  vtkTypeInt64 GetPeriodCount(int bin);
-  vtkTypeInt64 GetTickTimeCount(int bin);
-  ///@}
-
-  /// Records of this run that nobody drained in time. The newest 16,384 ticks are kept at most;
-  /// what comes when they are full is lost.
-  vtkTypeInt64 GetNumberOfLostRecords();
 
 #ifndef __VTK_WRAP__
   /**
@@ -330,9 +288,9 @@ private:
   std::unique_ptr<Internals> Internal;
   vtkSmartPointer<vtkHapticDevice> Device;
   double Rate = 1000.0;
+  vtkNew<vtkHapticReadings> Readings;
   vtkNew<vtkHapticSafety> Safety;
   bool RealTimePriority = true;
-  bool DevicePaced = true;
   bool Paused = false;
   double StallLimit = 0.5;
   double Stiffness = 500.0;

@@ -124,7 +124,7 @@ void vtkHapticTraceRecorder::Add(
   }
 }
 
-void vtkHapticTraceRecorder::CountLost(vtkIdType lostInRun)
+void vtkHapticTraceRecorder::OnLostTicks(vtkIdType lostInRun)
 {
   if (this->Recording)
   {

@@ -80,7 +80,7 @@ public:
   ///@{
   /**
    * Length of a world unit [m], for the information of the trace's arrays: the scene sets its own,
-   * see vtkHapticScene::SetUnitLength(). Default 0: not known.
+   * see vtkHapticWorkspace::SetUnitLength(). Default 0: not known.
    */
   void SetUnitLength(double metres);
   vtkGetMacro(UnitLength, double);
@@ -109,7 +109,7 @@ public:
    * were lost so far. Both do nothing to a trace that is not being recorded.
    */
   void Add(const haptics::TickRecord& tick, const haptics::TouchedPlace& place);
-  void CountLost(vtkIdType lostInRun);
+  void OnLostTicks(vtkIdType lostInRun);
 #endif
 
 protected:

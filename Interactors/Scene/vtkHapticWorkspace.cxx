@@ -9,6 +9,7 @@
 #include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
 
+#include <algorithm>
 #include <cmath>
 
 vtkStandardNewMacro(vtkHapticWorkspace);
@@ -125,7 +126,8 @@ bool vtkHapticWorkspace::Scale(double factor)
   double middle[4] = { 0.0, 0.0, 0.0, 1.0 };
   if (this->Servo && this->Servo->GetLatestRecord().Generation > 0)
   {
-    this->Servo->GetGodObject(middle);
+    const haptics::Vec3& place = this->Servo->GetLatestRecord().Position;
+    std::copy(place.begin(), place.end(), middle);
   }
   else
   {
@@ -150,12 +152,12 @@ void vtkHapticWorkspace::SetClutched(bool clutched)
   }
   if (!clutched && this->Servo)
   {
-    double device[4] = { 0.0, 0.0, 0.0, 1.0 };
-    this->Servo->GetDevicePosition(device);
+    const haptics::TickRecord& tick = this->Servo->GetLatestRecord();
+    const haptics::Vec3& hand = tick.Position;
+    const double device[4] = { tick.DevicePosition[0], tick.DevicePosition[1],
+      tick.DevicePosition[2], 1.0 };
     double world[4];
     this->Transform->MultiplyPoint(device, world);
-    double hand[3];
-    this->Servo->GetGodObject(hand);
     vtkNew<vtkMatrix4x4> moved;
     moved->DeepCopy(this->Transform);
     for (int i = 0; i < 3; ++i)
@@ -173,7 +175,7 @@ void vtkHapticWorkspace::SetClutched(bool clutched)
   this->InvokeEvent(vtkHapticWorkspace::ClutchEvent);
 }
 
-void vtkHapticWorkspace::ObeyButtons(unsigned int buttons)
+void vtkHapticWorkspace::OnButtons(unsigned int buttons)
 {
   const bool isHeld = this->ClutchButton >= 0 && (buttons >> this->ClutchButton & 1U) != 0;
   if (isHeld != this->IsButtonHeld)

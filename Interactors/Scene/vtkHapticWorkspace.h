@@ -47,7 +47,7 @@ public:
    * Device to world: rotation, uniform scale [world unit/m], translation. Default the identity: a
    * world unit is a metre in the hand; with SetUnitLength() the true size. False and an error where
    * the matrix is anything else (a mirror, a shear, not finite, null); the last one stays. The
-   * god-object starts anew at the HIP, so that no jump is felt. The matrix returned is not to be
+   * god-object starts anew at the HIP, so that no force jumps. The matrix returned is not to be
    * changed.
    */
   bool SetTransform(vtkMatrix4x4* deviceToWorld);
@@ -55,9 +55,10 @@ public:
   ///@}
   ///@{
   /**
-   * Length of a world unit [m]; see vtkHapticScene::SetUnitLength(), which is how to set it. A
-   * transform that was never set nor fitted becomes that of the true size: 1000 world units a metre
-   * for 0.001. Default 0: not known, and as if 1. Range 1e-100 to 1e100; anything else is an error.
+   * Length of a world unit [m]: 0.001 for surfaces in millimetres. A transform that was never set
+   * nor fitted becomes that of the true size: 1000 world units a metre for 0.001. The scene hands
+   * it on to its trace and its landmarks, as the unit of their lengths. Default 0: not known, and
+   * as if 1. Range 1e-100 to 1e100; anything else is an error, and the last one stays.
    */
   void SetUnitLength(double metres);
   vtkGetMacro(UnitLength, double);
@@ -111,7 +112,7 @@ public:
   ///@{
   /** For the scene, C++ only: whose device it is, and that device's buttons after each update. */
   void SetServo(vtkHapticServo* servo);
-  void ObeyButtons(unsigned int buttons);
+  void OnButtons(unsigned int buttons);
   ///@}
 #endif
 

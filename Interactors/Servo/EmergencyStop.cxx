@@ -29,8 +29,22 @@ std::atomic<int> Suspensions{ 0 }; // handlers that stop the process
 std::atomic<int> HeldServos{ 0 };  // servos that have taken their force away for that
 static_assert(std::atomic<std::uint32_t>::is_always_lock_free, "used in signal handlers");
 
-// The cycle that this thread runs; null in all but servo threads.
-thread_local ServoCycle* OwnCycle = nullptr;
+// What a signal handler knows of its thread.
+struct ThreadState
+{
+  ServoCycle* Cycle = nullptr; ///< that this thread runs; null in all but servo threads
+  /// How often it is in HandleSignal(): twice where a handler that came later calls the one that it
+  /// has replaced, which was ours.
+  int Depth = 0;
+  bool IsHeard = false; ///< see IsHeard()
+};
+#ifdef __unix__
+// In the block that each thread has from its begin. What a library has elsewhere is allocated at a
+// thread's first access if the library was loaded later: a signal that comes in the middle of an
+// allocation would wait for its own thread for ever.
+[[gnu::tls_model("initial-exec")]]
+#endif
+thread_local ThreadState OwnState;
 
 #ifdef __unix__
 // What handled each signal before, and what did when it was taken first: none is ever changed or
@@ -39,10 +53,6 @@ using Action = struct sigaction;
 std::array<std::atomic<const Action*>, EndingSignals.size()> Previous{};
 std::array<const Action*, EndingSignals.size()> First{};
 std::mutex Taking;
-
-// How often this thread is in HandleSignal(): twice where a handler that came later calls the one
-// that it has replaced, which was ours.
-thread_local int Depth = 0;
 
 const Action* Keep(const Action& action)
 {
@@ -61,10 +71,13 @@ const Action* Keep(const Action& action)
   return kept.back().get();
 }
 
-// SIGINT that came, that CountInterrupts() has returned, and until when somebody listens [ms].
+// SIGINT that came, that CountInterrupts() has returned; when the last one came and until when
+// somebody listens [ms].
 std::atomic<std::uint32_t> Interrupts{ 0 };
 std::atomic<std::uint32_t> HeardInterrupts{ 0 };
+std::atomic<std::int64_t> LastInterrupt{ 0 };
 std::atomic<std::int64_t> ListensUntil{ 0 };
+constexpr std::int64_t Patience = 1000; // [ms]: longer than it takes to draw a picture
 static_assert(std::atomic<std::int64_t>::is_always_lock_free, "used in signal handlers");
 
 /// Safe in a signal handler.
@@ -78,8 +91,10 @@ std::int64_t Milliseconds() noexcept
 /// Whether an event loop takes this SIGINT for its end.
 bool IsHeard() noexcept
 {
+  const std::int64_t now = Milliseconds();
+  LastInterrupt.store(now);
   const std::uint32_t before = Interrupts.fetch_add(1);
-  return before == HeardInterrupts.load() && Milliseconds() < ListensUntil.load();
+  return before == HeardInterrupts.load() && now < ListensUntil.load();
 }
 
 void Sleep(long nanoseconds) noexcept
@@ -93,11 +108,11 @@ void Sleep(long nanoseconds) noexcept
 void StopAllServos() noexcept
 {
   Requests.fetch_add(1, std::memory_order_acq_rel);
-  if (OwnCycle)
+  if (OwnState.Cycle)
   {
     // This servo thread ends the process itself and cannot wait for its own next tick.
-    OwnCycle->End(ServoState::Interrupted);
-    OwnCycle = nullptr;
+    OwnState.Cycle->End(ServoState::Interrupted);
+    OwnState.Cycle = nullptr;
     RunningServos.fetch_sub(1);
   }
 #ifdef __unix__
@@ -114,16 +129,16 @@ void HandleSignal(int signal, siginfo_t* information, void* context)
 {
   const int error = errno;
   StopAllServos();
-  thread_local bool isHeard = false;
-  isHeard = Depth == 0 ? signal == SIGINT && IsHeard() : isHeard;
+  ThreadState& own = OwnState;
+  own.IsHeard = own.Depth == 0 ? signal == SIGINT && IsHeard() : own.IsHeard;
   for (std::size_t i = 0; i < EndingSignals.size(); ++i)
   {
     if (EndingSignals[i] != signal)
     {
       continue;
     }
-    const Action& previous = *(Depth == 0 ? Previous[i].load() : First[i]);
-    ++Depth;
+    const Action& previous = *(own.Depth == 0 ? Previous[i].load() : First[i]);
+    ++own.Depth;
     if ((previous.sa_flags & SA_SIGINFO) != 0)
     {
       previous.sa_sigaction(signal, information, context);
@@ -132,12 +147,12 @@ void HandleSignal(int signal, siginfo_t* information, void* context)
     {
       previous.sa_handler(signal);
     }
-    else if (!isHeard)
+    else if (!own.IsHeard)
     {
       sigaction(signal, &previous, nullptr);
       raise(signal);
     }
-    --Depth;
+    --own.Depth;
   }
   errno = error;
 }
@@ -298,7 +313,6 @@ void EmergencyStop::KeepSignals()
 std::uint32_t EmergencyStop::CountInterrupts() noexcept
 {
 #ifdef __unix__
-  constexpr std::int64_t Patience = 1000; // [ms]: longer than it takes to draw a picture
   ListensUntil.store(Milliseconds() + Patience);
   const std::uint32_t count = Interrupts.load();
   HeardInterrupts.store(count);
@@ -308,18 +322,34 @@ std::uint32_t EmergencyStop::CountInterrupts() noexcept
 #endif
 }
 
+std::uint32_t EmergencyStop::CountInterruptsBeforeLoop() noexcept
+{
+#ifdef __unix__
+  const std::uint32_t heard = HeardInterrupts.load();
+  const bool isOld = Milliseconds() > LastInterrupt.load() + Patience;
+  if (Interrupts.load() == heard || isOld)
+  {
+    return CountInterrupts();
+  }
+  ListensUntil.store(Milliseconds() + Patience);
+  return heard;
+#else
+  return 0;
+#endif
+}
+
 EmergencyStop::EmergencyStop(ServoCycle& cycle) noexcept
   : RequestsBefore(Requests.load(std::memory_order_acquire))
 {
   RunningServos.fetch_add(1, std::memory_order_acq_rel);
-  OwnCycle = &cycle;
+  OwnState.Cycle = &cycle;
 }
 
 EmergencyStop::~EmergencyStop()
 {
-  if (OwnCycle)
+  if (OwnState.Cycle)
   {
-    OwnCycle = nullptr;
+    OwnState.Cycle = nullptr;
     RunningServos.fetch_sub(1, std::memory_order_acq_rel);
   }
 }

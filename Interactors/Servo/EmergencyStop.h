@@ -43,6 +43,10 @@ public:
   /// How often SIGINT has come since the first Install(). Who sees it grow ends its event loop. GUI
   /// thread; it listens for a second after each call.
   static std::uint32_t CountInterrupts() noexcept;
+  /// The same for an event loop that begins: without those of the last second that
+  /// CountInterrupts() has not returned. They came while the program was on its way into the loop,
+  /// and are its end.
+  static std::uint32_t CountInterruptsBeforeLoop() noexcept;
 
   ///@{
   /// A servo thread holds one while it runs `cycle`. Servo thread, wait-free.

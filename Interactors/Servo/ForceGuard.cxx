@@ -16,7 +16,8 @@ constexpr double SpeedSmoothing = 0.005;
 constexpr double LargestPassivityDamping = 4.0;
 // Of the device's damping; what a surface's own takes is missing for its stiffness.
 constexpr double LargestShareOfDamping = 0.5;
-// After a late tick the force may not make up for all of the time that has passed.
+// After a late tick a force that grows, fades or softens may not make up for all of the time that
+// has passed: that would be one step.
 constexpr double LongestStep = 2.0; // nominal periods
 // Of the speed at which a spring's force grows as fast as the slew limit: a hand as slow as this is
 // at rest, or slower than the soft start itself pushes it; but no motion that the limit might meet.
@@ -41,11 +42,14 @@ Vec3 ForceGuard::Force(const Contact& contact, double since, const ForceModel& m
 {
   // A device may have a time of its own, and report anything.
   const double period = std::isfinite(since) ? std::max(0.0, since) : 0.0;
+  // What goes by time alone does not make up for that of a late tick.
+  const double step = std::min(period, LongestStep * settings.NominalPeriod);
   const bool isPlain = contact.Material.IsPlain;
   const bool isTouching = contact.IsTouching();
   // Against the surface, which may move.
-  this->Step =
-    this->IsFirst ? Vec3{} : Sum(Sum(contact.Hip, -1.0, this->LastPosition), -1.0, contact.Carried);
+  this->Step = this->IsFirst
+    ? Vec3{}
+    : Sum(Sum(contact.Hip, -1.0, this->LastPosition), -1.0, contact.SurfaceDisplacement);
   Vec3 force = this->Spring(contact, period, model, settings);
   force = Sum(force, 1.0, this->Damping(contact, period, settings));
   if (settings.PassivityControl || !isPlain)
@@ -84,13 +88,37 @@ Vec3 ForceGuard::Force(const Contact& contact, double since, const ForceModel& m
     this->HasJump = true; // where the hand went meanwhile took no work
   }
   this->WasPaused = settings.Paused;
+  this->Fade(contact.AwaitsData, step, settings);
+  force = contact.AwaitsData ? Vec3{} : force;
 
-  force = this->LimitSlew(force, contact, period, model.MaximumForce, settings);
-  this->Passivity.Sent(force, contact.Carried);
+  force = this->LimitSlew(force, contact, step, model.MaximumForce, settings);
+  if (this->Fading != Vec3{})
+  {
+    force = settings.Paused ? Vec3{} : Sum(force, 1.0, this->Fading);
+    const double sum = Length(force);
+    force = sum > model.MaximumForce ? Sum({}, model.MaximumForce / sum, force) : force;
+  }
+  this->LastForce = force;
+  this->Passivity.Sent(force, contact.SurfaceDisplacement);
   this->IsFirst = false;
   this->HasExchange = false;
   this->HasJump = false;
   return force;
+}
+
+void ForceGuard::Fade(bool awaitsData, double step, const SafetySettings& settings) noexcept
+{
+  if (awaitsData && !this->WasWaiting)
+  {
+    this->Fading = this->LastForce;
+    this->FadingRate = Length(this->LastForce) / settings.SoftStartTime; // infinite at once
+  }
+  this->HasJump = this->HasJump || awaitsData || this->WasWaiting;
+  this->WasWaiting = awaitsData;
+  this->Limits |= awaitsData ? DataAwaited : 0u;
+  const double length = Length(this->Fading);
+  const double left = length - step * this->FadingRate;
+  this->Fading = left > 0.0 ? Sum({}, left / length, this->Fading) : Vec3{};
 }
 
 /// What the contact asks for, with no more stiffness and damping than device and periods bear.
@@ -105,6 +133,12 @@ Vec3 ForceGuard::Spring(const Contact& contact, double period, const ForceModel&
     : LargestPassivityDamping;
   const double damping = std::min(contact.Material.Damping, limits.Damping);
   limits.Stiffness = std::min(model.LargestStiffness, this->Stiffener.Allowed(settings, damping));
+  if (this->HasExchange && settings.SoftStartTime > 0.0)
+  {
+    const double longest = LongestStep * settings.NominalPeriod;
+    this->Law.NoticeExchange(settings.SoftStartTime, longest,
+      std::min(period, longest) * model.MaximumForce / settings.SoftStartTime);
+  }
   const Vec3 force = this->Law.Update(contact, period, plain, limits);
   const bool isLimited = contact.Material.IsPlain || !contact.IsTouching() ? plain < model.Stiffness
                                                                            : this->Law.IsLimited();
@@ -134,17 +168,15 @@ Vec3 ForceGuard::Damping(
   return Sum({}, std::max(-settings.ContactDamping * this->NormalSpeed, -pull), normal);
 }
 
-Vec3 ForceGuard::LimitSlew(const Vec3& force, const Contact& contact, double period,
+Vec3 ForceGuard::LimitSlew(const Vec3& force, const Contact& contact, double step,
   double maximumForce, const SafetySettings& settings) noexcept
 {
-  // Nor is a soft start over because its first tick was late.
-  const double step = std::min(period, LongestStep * settings.NominalPeriod);
   const double slewRate = settings.SlewLimit;
   const double softRate = settings.SoftStartTime > 0.0
     ? std::min(slewRate, maximumForce / settings.SoftStartTime)
     : slewRate;
   const bool isStarting = this->SoftTimeLeft > 0.0;
-  this->SoftTimeLeft -= isStarting ? step : 0.0;
+  this->SoftTimeLeft -= isStarting ? step : 0.0; // nor is it over because its first tick was late
 
   SlewRequest request;
   request.Force = force;
@@ -169,7 +201,7 @@ Vec3 ForceGuard::LimitSlew(const Vec3& force, const Contact& contact, double per
       this->Stiffness > 0.0 ? std::max(0.0, request.Stiffness - this->Stiffness) : 0.0;
     if (this->HasExchange)
     {
-      request.Change = request.Stiffness * Length(contact.Carried) + hardened * depth;
+      request.Change = request.Stiffness * Length(contact.SurfaceDisplacement) + hardened * depth;
     }
     // Surfaces with properties pay for theirs themselves.
     else if (contact.Material.IsPlain && this->WasPlain)

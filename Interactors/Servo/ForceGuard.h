@@ -19,8 +19,17 @@ namespace haptics
 ///     stiffness limit -> SurfaceForce -> contact damping -> passivity -> clamp -> slew,
 ///     soft start
 ///
-/// A force may shrink at once, but grows and turns no faster than the slew limit, and what this
-/// does gives the hand no energy (class SlewLimiter):
+/// A force may shrink at once as the hand moves (what an exchange of materials softens goes over
+/// the soft start's time, see SurfaceForce), but grows and turns no faster than the slew limit, and
+/// what this does gives the hand no energy (class SlewLimiter):
+///
+/// Where the hand has gone beyond what is known of a surface (Contact::AwaitsData), the force that
+/// it had falls to zero over the soft start's time; what comes when the data have come starts
+/// softly, and is added to what is left of that. (A spring to the last known place would hold the
+/// hand with 3.3 N after 22 ms at 0.3 m/s, all of which would be gone in the tick in which data
+/// come; measured by TestPatchLatency.)
+///
+/// After a late tick all of this goes on as after two periods at most, and so softly.
 ///
 ///        allowed next force: within slew * T of the line from zero to the last force
 ///             ________
@@ -37,7 +46,7 @@ public:
   void Release() noexcept { this->Slew.Release(); }
   ///@{
   /// For the next force. Surfaces or their materials have been exchanged: what that does to it, by
-  /// Contact::Carried and by another stiffness, starts softly, and all else goes on.
+  /// Contact::SurfaceDisplacement and by another stiffness, starts softly, and all else goes on.
   void NoticeExchange() noexcept { this->HasExchange = true; }
   /// The HIP has been put elsewhere, by another workspace: whatever the force grows starts softly.
   void NoticeJump() noexcept { this->HasJump = true; }
@@ -59,7 +68,8 @@ private:
   Vec3 Spring(const Contact& contact, double period, const ForceModel& model,
     const SafetySettings& settings) noexcept;
   Vec3 Damping(const Contact& contact, double period, const SafetySettings& settings) noexcept;
-  Vec3 LimitSlew(const Vec3& force, const Contact& contact, double period, double maximumForce,
+  void Fade(bool awaitsData, double step, const SafetySettings& settings) noexcept;
+  Vec3 LimitSlew(const Vec3& force, const Contact& contact, double step, double maximumForce,
     const SafetySettings& settings) noexcept;
 
   StiffnessLimit Stiffener;
@@ -75,7 +85,11 @@ private:
   bool WasPaused = false;
   double NormalSpeed = 0.0; // [m/s], smoothed
   double SoftTimeLeft = 0.0;
-  double Stiffness = 0.0; // of the last tick's contact; 0 in free space [N/m]
+  bool WasWaiting = false; // for data
+  Vec3 Fading{};           // what is left of the force before that [N]
+  double FadingRate = 0.0; // [N/s]
+  Vec3 LastForce{};        // [N]
+  double Stiffness = 0.0;  // of the last tick's contact; 0 in free space [N/m]
   bool WasPlain = true;
   std::uint32_t Limits = 0;
 };

@@ -27,7 +27,7 @@ public:
   /// `period` [s], `deviceDamping` [N s/m], `largestDamping` [N s/m], `touching`: now.
   Vec3 Update(const Vec3& position, double period, double deviceDamping, double largestDamping,
     bool touching) noexcept;
-  /// Tells which force was asked for in the end [N], and how far surfaces took the god-object along
+  /// Takes in the force that was finally asked for [N], and how far surfaces moved the god-object
   /// since the last tick [m].
   void Sent(const Vec3& force, const Vec3& surfaceStep) noexcept;
   /// The balance [J]: negative where the servo has made energy.

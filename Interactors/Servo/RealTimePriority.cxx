@@ -20,6 +20,7 @@ constexpr int Priority = 80;
 int RequestRealTimePriority(Urgency urgency) noexcept
 {
 #ifdef __linux__
+  prctl(PR_SET_NAME, urgency == Urgency::Servo ? "haptic servo" : "haptic watchdog", 0UL, 0UL, 0UL);
   // Without real-time priority the kernel may wake a thread 50 us late to save power; not this one.
   prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
   sched_param parameters{};

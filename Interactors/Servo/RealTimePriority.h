@@ -12,7 +12,8 @@ enum class Urgency
   AboveServo ///< for who watches the servo
 };
 
-/// Asks for real-time priority for the calling thread. 0 where it was given, else the errno.
+/// Asks for real-time priority for the calling thread, and names it for top -H and debuggers. 0
+/// where the priority was given, else the errno.
 int RequestRealTimePriority(Urgency urgency) noexcept;
 
 /// What came of it, as a message: what it means and what to do. `result` as returned above.

@@ -116,7 +116,7 @@ void RecordingChannel::Write(const std::array<double, 3>& force) noexcept
     }
     else
     {
-      this->Lost.fetch_add(1, std::memory_order_relaxed);
+      this->LostTicks.fetch_add(1, std::memory_order_relaxed);
       this->Overflows.fetch_add(1, std::memory_order_relaxed);
     }
   }
@@ -143,7 +143,7 @@ void RecordingChannel::Drain()
   }
   if (this->HasFailed.load())
   {
-    this->Lost.fetch_add(this->Ticks.size());
+    this->LostTicks.fetch_add(this->Ticks.size());
   }
   else
   {
@@ -153,7 +153,7 @@ void RecordingChannel::Drain()
     this->Written.store(this->File.GetNumberOfTicks());
     if (!isWritten)
     {
-      this->Lost.fetch_add(all - this->File.GetNumberOfTicks());
+      this->LostTicks.fetch_add(all - this->File.GetNumberOfTicks());
       this->HasFailed.store(true, std::memory_order_release);
     }
   }

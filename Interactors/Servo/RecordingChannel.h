@@ -55,7 +55,7 @@ public:
   ///@{
   /// Ticks that are in the file, and ticks that are not. Any thread.
   std::uint64_t GetNumberOfTicks() const noexcept { return this->Written.load(); }
-  std::uint64_t GetNumberOfLostTicks() const noexcept { return this->Lost.load(); }
+  std::uint64_t GetNumberOfLostTicks() const noexcept { return this->LostTicks.load(); }
   ///@}
 
   bool Read(double time, DeviceSample& sample) noexcept override;
@@ -78,8 +78,8 @@ private:
   const std::shared_ptr<DeviceChannel> Device;
   RingBuffer<RecordedTick> Ring;
   std::atomic<std::uint64_t> Written{ 0 };
-  std::atomic<std::uint64_t> Lost{ 0 };
-  std::atomic<std::uint64_t> Overflows{ 0 }; // those of Lost that found the ring full
+  std::atomic<std::uint64_t> LostTicks{ 0 };
+  std::atomic<std::uint64_t> Overflows{ 0 }; // those of LostTicks that found the ring full
   std::atomic<std::uint64_t> Pushed{ 0 };    // into the ring
   std::atomic<std::uint64_t> Drained{ 0 };   // of those
   std::atomic<bool> HasFailed{ false };      // Error is there, and does not change any more

@@ -30,7 +30,7 @@ public:
 
   std::size_t Capacity() const { return this->Slots.size(); }
 
-  /// True while Push() would succeed. The pushing thread only.
+  /// True while there is room for Push(). The pushing thread only.
   bool HasRoom() const
   {
     // Acquire: the reader's copy out of the slot is done before it is written again.

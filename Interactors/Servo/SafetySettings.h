@@ -38,7 +38,8 @@ enum SafetyLimit : std::uint32_t
   StiffnessLimited = 8, ///< the periods and the device's damping allow less than was asked for
   PassivityDamped = 16, ///< energy was taken back
   PausedForce = 32,     ///< paused
-  EnergyHeldBack = 64   ///< a surface is stiffer here than anything has paid for; see SurfaceForce
+  EnergyHeldBack = 64,  ///< a surface is stiffer here than anything has paid for; see SurfaceForce
+  DataAwaited = 128     ///< the hand is ahead of what is known of a surface; see ForceGuard
 };
 }
 

@@ -43,7 +43,7 @@ void ServoCycle::Begin(std::shared_ptr<DeviceChannel> channel, ServoState state)
   for (TickRecord old; this->Records.Pop(old);)
   {
   }
-  this->Lost.store(0, std::memory_order_relaxed);
+  this->LostRecords.store(0, std::memory_order_relaxed);
   this->Channel = std::move(channel);
   this->Channel->Restart();
   this->Channel->Resume(); // a watchdog may have halted it in the run before
@@ -70,6 +70,8 @@ bool ServoCycle::Tick(double time) noexcept
   this->NextSettings.Update();
   const ServoSettings& settings = this->NextSettings.Get();
   NumberedGodObject& god = this->Exchange.Take();
+  god.Object->SetSubstepLimit(settings.SubstepLimit);
+  god.Object->SetTipRadius(settings.TipRadius * settings.DeviceToWorld.Scale);
   const Vec3 hip = settings.DeviceToWorld.PointToWorld(sample.Position);
   double period = time - this->Now.Time;
   if (this->IsFirst)
@@ -159,7 +161,8 @@ void ServoCycle::Record(const NumberedGodObject& god, const Vec3& force) noexcep
   this->Latest.Publish(this->Now);
   if (!this->Records.Push(this->Now))
   {
-    this->Lost.store(this->Lost.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+    this->LostRecords.store(
+      this->LostRecords.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   }
   ++this->Now.Tick;
 }
@@ -167,7 +170,7 @@ void ServoCycle::Record(const NumberedGodObject& god, const Vec3& force) noexcep
 void ServoCycle::End(ServoState state) noexcept
 {
   this->Channel->Write({});
-  if (this->Now.Tick > 0) // else there is nothing that this run could tell
+  if (this->Now.Tick > 0) // else this run has nothing to report
   {
     this->Now.Force = {};
     this->Now.WorldForce = {};

@@ -42,6 +42,8 @@ struct ServoSettings
   SafetySettings Safety;
   std::uint64_t Placements = 0; ///< whenever it changes the god-object starts anew at the HIP
   bool IsClutched = false;      ///< the god-object stays, wherever the device goes; no force
+  int SubstepLimit = GodObject::DefaultSubstepLimit; ///< of the god-object
+  double TipRadius = 0.0; ///< [m], device frame, see GodObject::SetTipRadius()
 };
 
 /// @brief One servo tick: position in, god-object, force out. Knows nothing of time or threads.
@@ -72,7 +74,7 @@ public:
   /// Records that were lost since Begin() because nobody drained them.
   std::uint64_t GetNumberOfLostRecords() const
   {
-    return this->Lost.load(std::memory_order_relaxed);
+    return this->LostRecords.load(std::memory_order_relaxed);
   }
   /// Any thread.
   ServoState GetState() const { return this->State.load(std::memory_order_acquire); }
@@ -106,7 +108,7 @@ private:
   LatestValue<ServoSettings> NextSettings;
   LatestValue<TickRecord> Latest;
   RingBuffer<TickRecord> Records;
-  std::atomic<std::uint64_t> Lost{ 0 };
+  std::atomic<std::uint64_t> LostRecords{ 0 };
   std::atomic<ServoState> State{ ServoState::Stopped };
 
   // The servo thread's own.

@@ -2,10 +2,11 @@
 
 #include "haptics/Devices/DeviceChannel.h"
 #include "haptics/Devices/EndingSignals.h"
+#include "haptics/Devices/MonotonicClock.h"
 #include "haptics/Servo/EmergencyStop.h"
-#include "haptics/Servo/MonotonicClock.h"
 #include "haptics/Servo/OverrunBudget.h"
 #include "haptics/Servo/RealTimePriority.h"
+#include "haptics/Servo/SleepUntil.h"
 #include "haptics/Servo/Watchdog.h"
 
 #include <algorithm>
@@ -149,9 +150,9 @@ void ServoLoop::Run(const ServoTiming& timing) noexcept
 void ServoLoop::Wait(const ServoTiming& timing, std::uint64_t deadline) noexcept
 {
   DeviceChannel& channel = this->Cycle.GetChannel();
-  if (timing.DevicePaced && channel.SetsPace())
+  if (channel.SetsPace())
   {
-    // A device that stays silent is read all the same: that tells whether it is lost.
+    // A device that stays silent is read all the same: that shows whether it is lost.
     channel.WaitForSample(DevicePatience * timing.Period);
   }
   else

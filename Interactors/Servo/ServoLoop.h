@@ -24,7 +24,6 @@ struct ServoTiming
   std::uint64_t StallLimit = 500000000;  ///< [ns], > Period: a longer gap between ticks is a fault
   double MissedShare = 0.5;              ///< of deadlines that may be missed, see OverrunBudget
   bool RealTimePriority = true;          ///< ask the system for it
-  bool DevicePaced = true; ///< wait for the samples of a device that sets the pace, not for a clock
 };
 
 /// @brief Runs a ServoCycle on its own thread, at absolute deadlines.

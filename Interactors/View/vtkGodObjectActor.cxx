@@ -1,7 +1,7 @@
 #include "vtkGodObjectActor.h"
 
 #include "haptics/Filters/NumberSetting.h"
-#include "haptics/View/ForceColor.h"
+#include "haptics/View/ForceColors.h"
 #include "haptics/View/ViewHeight.h"
 #include "vtkActor.h"
 #include "vtkBillboardTextActor3D.h"
@@ -33,7 +33,7 @@ constexpr double LeastPixels = 4.0;                // of a radius of that size
 constexpr double HapticInterfacePointRadius = 0.6; // all in radii of the god-object
 constexpr double SpringRadius = 0.16;
 constexpr double ShaftRadius = 0.3;
-constexpr double TipRadius = 0.75;
+constexpr double ArrowTipRadius = 0.75;
 constexpr double TipLength = 2.0;
 constexpr double ReferenceArrowLength = 12.0;
 constexpr double LeastRing = 1.6; // the ring's radius at the lightest touch
@@ -95,6 +95,7 @@ vtkGodObjectActor::vtkGodObjectActor()
 {
   this->PickableOff();
   this->UseBoundsOff();
+  haptics::SetForceColors(this->ForceColors, this->ReferenceForce);
 
   vtkNew<vtkSphereSource> sphere;
   sphere->SetRadius(1.0);
@@ -130,9 +131,25 @@ void vtkGodObjectActor::SetSize(double value)
   haptics::SetNumber(this, "Size", this->Size, value, 1e-300, VTK_DOUBLE_MAX);
 }
 
+void vtkGodObjectActor::SetTipRadius(double radius)
+{
+  if (!(radius >= 0.0) || !std::isfinite(radius))
+  {
+    vtkErrorMacro("The radius of the tip must be finite and not below 0, but is "
+      << radius << "; it stays " << this->TipRadius << ".");
+    return;
+  }
+  if (this->TipRadius != radius)
+  {
+    this->TipRadius = radius;
+    this->Modified();
+  }
+}
+
 void vtkGodObjectActor::SetReferenceForce(double value)
 {
   haptics::SetNumber(this, "ReferenceForce", this->ReferenceForce, value, 1e-300, VTK_DOUBLE_MAX);
+  haptics::SetForceColors(this->ForceColors, this->ReferenceForce);
 }
 
 void vtkGodObjectActor::ShowThrough()
@@ -244,26 +261,28 @@ void vtkGodObjectActor::ArrangeForce(double radius)
   }
   if (this->ColorForceByMagnitude)
   {
-    const std::array<double, 3> color = haptics::ForceColor(force / this->ReferenceForce);
-    this->ForceShaftPart->GetProperty()->SetColor(color[0], color[1], color[2]);
+    this->ForceShaftPart->GetProperty()->SetColor(this->ForceColors->GetColor(force));
   }
   // A short arrow is all tip, and thinner.
   const double tip = std::min(TipLength * radius, 0.6 * length);
   const double thickness = tip / TipLength;
+  double start[3];
   double base[3];
   for (int i = 0; i < 3; ++i)
   {
-    base[i] = this->GodObject[i] + (length - tip) * direction[i];
+    start[i] = this->GodObject[i] + this->TipRadius * direction[i]; // out of the ball
+    base[i] = start[i] + (length - tip) * direction[i];
   }
-  Stretch(this->ForceShaftPart, this->GodObject, direction, length - tip, ShaftRadius * thickness);
-  Stretch(this->ForceTipPart, base, direction, tip, TipRadius * thickness);
+  Stretch(this->ForceShaftPart, start, direction, length - tip, ShaftRadius * thickness);
+  Stretch(this->ForceTipPart, base, direction, tip, ArrowTipRadius * thickness);
 }
 
 void vtkGodObjectActor::Arrange(vtkViewport* viewport)
 {
   const double radius = this->RadiusInWorld(viewport);
   const double up[3] = { 0.0, 1.0, 0.0 };
-  Stretch(this->GodObjectPart, this->GodObject, up, radius, radius);
+  const double ball = this->TipRadius > 0.0 ? this->TipRadius : radius;
+  Stretch(this->GodObjectPart, this->GodObject, up, ball, ball);
   this->GodObjectPart->SetVisibility(this->ShowHand);
 
   double spring[3];
@@ -298,12 +317,18 @@ void vtkGodObjectActor::ArrangeContact(vtkViewport* viewport, double radius)
     return;
   }
   const double share = force / this->ReferenceForce;
-  const std::array<double, 3> color = haptics::ForceColor(share);
+  double color[3];
+  this->ForceColors->GetColor(force, color);
   this->TouchingLook->DeepCopy(this->GodObjectLook);
-  this->TouchingLook->SetColor(color[0], color[1], color[2]);
-  this->ColorRing(color.data());
+  this->TouchingLook->SetColor(color);
+  this->ColorRing(color);
   const double width = radius * (LeastRing + RingGrowth * std::min(1.0, share));
-  Stretch(this->ContactPart, this->GodObject, normal, width, width);
+  double place[3];
+  for (int i = 0; i < 3; ++i)
+  {
+    place[i] = this->GodObject[i] - this->TipRadius * normal[i]; // under the ball
+  }
+  Stretch(this->ContactPart, place, normal, width, width);
   if (!this->SeeThrough)
   {
     this->LiftRing(viewport);
@@ -395,7 +420,8 @@ double* vtkGodObjectActor::GetBounds()
 void vtkGodObjectActor::IncludeInClippingRange(vtkRenderer* renderer)
 {
   vtkCamera* camera = renderer->GetActiveCamera();
-  const double reach = this->RadiusInWorld(renderer) * (ReferenceArrowLength + 1.0);
+  const double reach =
+    this->TipRadius + this->RadiusInWorld(renderer) * (ReferenceArrowLength + 1.0);
   double range[2];
   camera->GetClippingRange(range);
   for (const double* point : { this->HapticInterfacePoint, this->GodObject })
@@ -446,6 +472,7 @@ void vtkGodObjectActor::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Touching: " << (this->Touching ? "On" : "Off") << "\n";
   os << indent << "Size [" << (this->SizeInWorld ? "world unit" : "view heights")
      << "]: " << this->Size << "\n";
+  os << indent << "TipRadius [world unit]: " << this->TipRadius << "\n";
   os << indent << "ReferenceForce [N]: " << this->ReferenceForce << "\n";
   os << indent << "ShowHand: " << (this->ShowHand ? "On" : "Off") << "\n";
   os << indent << "ShowHapticInterfacePoint: " << (this->ShowHapticInterfacePoint ? "On" : "Off")

@@ -46,6 +46,7 @@
 
 class vtkActor;
 class vtkBillboardTextActor3D;
+class vtkColorTransferFunction;
 class vtkPolyData;
 class vtkRenderer;
 class vtkScalarBarActor;
@@ -118,12 +119,27 @@ public:
 
   ///@{
   /**
+   * The radius of the tip in the world [world unit]: the god-object's sphere is then drawn at that
+   * size, and ring and arrow are where it touches. 0, the default: a point, drawn by Size. Finite
+   * and >= 0; any other value is an error and changes nothing.
+   */
+  void SetTipRadius(double radius);
+  vtkGetMacro(TipRadius, double);
+  ///@}
+
+  ///@{
+  /**
    * Force whose arrow is 12 times as long as Size [N]; arrows are proportional to the force.
    * Default 3.3, the limit of common devices; greater than 0.
    */
   void SetReferenceForce(double value);
   vtkGetMacro(ReferenceForce, double);
   ///@}
+  /**
+   * The colours of forces [N], from pale gold at 0 over orange to crimson at ReferenceForce, as
+   * arrow, god-object, ring and legend have them. Not to be changed; never null.
+   */
+  vtkColorTransferFunction* GetForceColors() { return this->ForceColors; }
 
   ///@{
   /**
@@ -173,7 +189,7 @@ public:
   ///@{
   /**
    * Points to mark by small balls, for example vtkHapticLandmarks::GetOutput(); null for none. The
-   * strings of their point array Text, where they have one, are written beside them while
+   * strings of their point array Text, where they have one, are written next to them while
    * ShowLandmarkTexts is on (the default; needs VTK::RenderingFreeType in the program). Ball and
    * text are hidden by what lies in front of them.
    */
@@ -278,8 +294,10 @@ private:
   double Force[3] = { 0.0, 0.0, 0.0 };
   bool Touching = false;
   double Size = 0.012;
+  double TipRadius = 0.0;
   bool SizeInWorld = false;
   double ReferenceForce = 3.3;
+  vtkNew<vtkColorTransferFunction> ForceColors;
   bool ShowHand = true;
   bool ShowHapticInterfacePoint = true;
   bool ShowForce = true;

@@ -2,14 +2,13 @@
 // landmarks.
 #include "vtkGodObjectActor.h"
 
-#include "haptics/View/ForceColor.h"
 #include "haptics/View/ViewHeight.h"
 #include "vtkActor.h"
 #include "vtkBillboardTextActor3D.h"
 #include "vtkCamera.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
-#include "vtkLookupTable.h"
+#include "vtkColorTransferFunction.h"
 #include "vtkMath.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -33,7 +32,6 @@
 
 namespace
 {
-constexpr int LegendColors = 128;
 constexpr double DefaultSize = 0.012; // of the view's height
 constexpr double TrianglesLift = 1.0; // [pixel] towards the viewer
 constexpr double TrailLift = 4.0;     // a line's width more: half of it dips into a slope
@@ -354,16 +352,7 @@ void vtkGodObjectActor::ArrangeLegend(vtkViewport* viewport)
   if (!this->Legend)
   {
     this->Legend = vtkSmartPointer<vtkScalarBarActor>::New();
-    vtkNew<vtkLookupTable> table;
-    table->SetNumberOfTableValues(LegendColors);
-    table->Build();
-    for (int i = 0; i < LegendColors; ++i)
-    {
-      const std::array<double, 3> color =
-        haptics::ForceColor(static_cast<double>(i) / (LegendColors - 1));
-      table->SetTableValue(i, color[0], color[1], color[2], 1.0);
-    }
-    this->Legend->SetLookupTable(table);
+    this->Legend->SetLookupTable(this->ForceColors);
     this->Legend->SetTitle("force [N]");
     this->Legend->SetNumberOfLabels(4);
     this->Legend->SetLabelFormat("%.1f");
@@ -380,7 +369,6 @@ void vtkGodObjectActor::ArrangeLegend(vtkViewport* viewport)
       text->ShadowOff();
     }
   }
-  this->Legend->GetLookupTable()->SetRange(0.0, this->ReferenceForce);
   // At the upper right; wide enough for its title, whatever the view's size.
   const double width = std::min(1.0, 74.0 / std::max(1, viewport->GetSize()[0]));
   const double height = std::min(0.42, 260.0 / std::max(1, viewport->GetSize()[1]));

@@ -1,6 +1,6 @@
 #include "vtkHapticOverlay.h"
 
-#include "haptics/View/ForceColor.h"
+#include "haptics/View/ForceColors.h"
 #include "vtkActor2D.h"
 #include "vtkCellArray.h"
 #include "vtkObjectFactory.h"
@@ -10,6 +10,7 @@
 #include "vtkProperty2D.h"
 #include "vtkTextActor.h"
 #include "vtkTextProperty.h"
+#include "vtkTextRenderer.h"
 #include "vtkViewport.h"
 #include "vtkWindow.h"
 
@@ -26,6 +27,7 @@ constexpr double GroundOpacity = 0.72;
 constexpr int Margin = 12;            // [pixel]
 constexpr double LeastLines = 22.0;   // of text that a view has room for
 constexpr double LeastColumns = 30.0; // in heights of the text
+constexpr int LeastFontSize = 6;      // [pixel] that can be read
 
 void MakeText(vtkTextActor* part, int vertical)
 {
@@ -78,12 +80,47 @@ std::string Padded(const std::string& text)
   }
   return padded + "  ";
 }
+
+/// Shows text in a font of at most that size [pixel], smaller where a line would be wider than the
+/// room [pixel].
+void ShowFitting(vtkTextActor* part, const std::string& text, int size, double room, int resolution)
+{
+  const std::string padded = Padded(text);
+  part->SetInput(padded.c_str());
+  // Of a copy: what is changed and changed back is drawn anew.
+  vtkNew<vtkTextProperty> look;
+  look->ShallowCopy(part->GetTextProperty());
+  vtkTextRenderer* renderer = vtkTextRenderer::GetInstance();
+  const auto widthAt = [&](int fontSize)
+  {
+    look->SetFontSize(fontSize);
+    int box[4];
+    return renderer && !text.empty() && renderer->GetBoundingBox(look, padded, box, resolution)
+      ? box[1] - box[0] + 1
+      : 0;
+  };
+  int fitting = size;
+  const int width = widthAt(size);
+  if (width > room)
+  {
+    // Letters are whole pixels wide, so that a share of the size may be more than that of the
+    // width.
+    fitting = static_cast<int>(size * room / width);
+    while (fitting > LeastFontSize && widthAt(fitting) > room)
+    {
+      --fitting;
+    }
+    fitting = std::max(LeastFontSize, fitting);
+  }
+  part->GetTextProperty()->SetFontSize(fitting);
+}
 }
 
 vtkHapticOverlay::vtkHapticOverlay()
 {
   this->PickableOff();
   this->UseBoundsOff();
+  haptics::SetForceColors(this->ForceColors, this->MaximumForce);
   MakeBox(this->GroundPart, this->Ground);
   MakeBox(this->BarPart, this->Bar);
   this->GroundPart->GetProperty()->SetColor(GroundColor[0], GroundColor[1], GroundColor[2]);
@@ -125,6 +162,7 @@ void vtkHapticOverlay::SetMaximumForce(double force)
   if (force != this->MaximumForce)
   {
     this->MaximumForce = force;
+    haptics::SetForceColors(this->ForceColors, force);
     this->Modified();
   }
 }
@@ -176,8 +214,7 @@ void vtkHapticOverlay::ArrangeBar()
   SetBox(this->Ground, x, y, length + number + 2.0 * gap, height);
   const double share = std::min(1.0, this->Force / this->MaximumForce);
   SetBox(this->Bar, x + gap, y + gap, share * length, height - 2.0 * gap);
-  const std::array<double, 3> color = haptics::ForceColor(share);
-  this->BarPart->GetProperty()->SetColor(color[0], color[1], color[2]);
+  this->BarPart->GetProperty()->SetColor(this->ForceColors->GetColor(this->Force));
 
   char text[32];
   std::snprintf(text, sizeof(text), "%.2f N", this->Force);
@@ -204,13 +241,14 @@ void vtkHapticOverlay::Arrange(vtkViewport* viewport)
   // Small views have smaller text.
   const double fits =
     std::min(viewport->GetSize()[1] / LeastLines, viewport->GetSize()[0] / LeastColumns);
-  this->Text = std::max(6.0, std::min<double>(this->FontSize, fits)) * this->Unit;
-  for (vtkTextActor* text : { this->NumberPart.Get(), this->ReadoutPart.Get(),
-         this->StatusPart.Get(), this->HelpPart.Get() })
-  {
-    // VTK multiplies the height of text by itself there, as a finer resolution.
-    text->GetTextProperty()->SetFontSize(static_cast<int>(this->Text / this->Unit));
-  }
+  this->Text = std::max<double>(LeastFontSize, std::min<double>(this->FontSize, fits)) * this->Unit;
+  // VTK multiplies the height of text by itself there, as a finer resolution.
+  const int fontSize = static_cast<int>(this->Text / this->Unit);
+  this->NumberPart->GetTextProperty()->SetFontSize(fontSize);
+  const int resolution = window ? window->GetDPI() : 72; // 72: a point is a pixel
+  const double room = viewport->GetSize()[0] - 2.0 * Margin;
+  const auto show = [fontSize, room, resolution](vtkTextActor* part, const std::string& text)
+  { ShowFitting(part, text, fontSize, room, resolution); };
   this->ArrangeBar();
   this->GroundPart->SetVisibility(this->ShowForce);
   this->BarPart->SetVisibility(this->ShowForce && this->Force > 0.0);
@@ -219,17 +257,17 @@ void vtkHapticOverlay::Arrange(vtkViewport* viewport)
   const double left = this->Left + Margin * this->Unit;
   double above = this->Bottom + Margin * this->Unit;
   above += this->ShowForce ? 1.9 * this->Text + 6.0 * this->Unit : 0.0;
-  this->StatusPart->SetInput(Padded(this->Status).c_str());
+  show(this->StatusPart, this->Status);
   this->StatusPart->SetPosition(left, above);
   this->StatusPart->SetVisibility(!this->Status.empty());
 
   above += this->Status.empty() ? 0.0 : 1.5 * this->Text + 6.0 * this->Unit;
-  this->ReadoutPart->SetInput(Padded(this->Readout).c_str());
+  show(this->ReadoutPart, this->Readout);
   this->ReadoutPart->SetPosition(left, above);
   this->ReadoutPart->SetVisibility(this->ShowReadout && !this->Readout.empty());
 
   const std::string& top = this->ShowHelp ? this->Help : this->Hint;
-  this->HelpPart->SetInput(Padded(top).c_str());
+  show(this->HelpPart, top);
   this->HelpPart->SetPosition(left, this->Bottom + height - Margin * this->Unit);
   this->HelpPart->SetVisibility(!top.empty());
 }

@@ -1,6 +1,6 @@
 /**
  * @class   vtkHapticOverlay
- * @brief   What a hand feels, over the picture: a bar and a number of the force, a few lines, help.
+ * @brief   Text and bars over the picture: a bar and a number of the force, a few lines, help.
  *
  * At the lower left the force as a bar and a number [N], and above them the read-out: free lines of
  * text, for a vtkHapticScene the values at the contact; between them the status, what the hand does
@@ -23,6 +23,7 @@
 #include <string>
 
 class vtkActor2D;
+class vtkColorTransferFunction;
 class vtkPolyData;
 class vtkTextActor;
 
@@ -105,6 +106,7 @@ private:
 
   double Force = 0.0;
   double MaximumForce = 3.3;
+  vtkNew<vtkColorTransferFunction> ForceColors; // to MaximumForce
   std::string Readout;
   std::string Help;
   std::string Status;

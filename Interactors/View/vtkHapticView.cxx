@@ -6,8 +6,10 @@
 #include "vtkHapticLandmarks.h"
 #include "vtkHapticOverlay.h"
 #include "vtkHapticProbe.h"
+#include "vtkHapticReadings.h"
 #include "vtkHapticScene.h"
 #include "vtkHapticServo.h"
+#include "vtkHapticSurfaces.h"
 #include "vtkMath.h"
 #include "vtkObjectFactory.h"
 
@@ -110,6 +112,8 @@ void vtkHapticView::Show()
     this->Actor->SetHapticInterfacePoint(this->Scene->GetHapticInterfacePoint());
     this->Actor->SetGodObject(this->Scene->GetGodObject());
     this->Actor->SetForce(this->Scene->GetForce());
+    this->Actor->SetTipRadius(
+      this->Scene->GetEffectiveTipRadius() * this->Scene->GetWorkspace()->GetScale());
     this->Actor->SetTouching(this->Scene->GetTouching());
     if (this->Actor->GetShowActiveTriangles() && this->Scene->GetTouching())
     {
@@ -124,9 +128,10 @@ void vtkHapticView::Show()
 std::string vtkHapticView::DescribeContact()
 {
   const std::string contact = this->Scene->GetProbe()->GetText();
-  const char* state = this->Scene->GetSqueezed() ? "surfaces leave no room here: no force"
-    : this->Scene->GetOverloaded()               ? "too many triangles here: held"
-    : this->Scene->IsSurfaceOutdated(this->Scene->GetTouchedSurface())
+  vtkHapticReadings* readings = this->Scene->GetServo()->GetReadings();
+  const char* state = readings->GetSqueezed() ? "surfaces leave no room here: no force"
+    : readings->GetOverloaded()               ? "too many triangles here: held"
+    : this->Scene->GetSurfaces()->IsOutdated(this->Scene->GetTouchedSurface())
     ? "older than shown: the newest is no good"
     : "";
   const std::string marks = this->DescribeLandmarks();

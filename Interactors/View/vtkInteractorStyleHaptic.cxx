@@ -12,6 +12,7 @@
 #include "vtkHapticOverlay.h"
 #include "vtkHapticScene.h"
 #include "vtkHapticServo.h"
+#include "vtkHapticSurfaces.h"
 #include "vtkHapticView.h"
 #include "vtkObjectFactory.h"
 #include "vtkRenderWindow.h"
@@ -154,22 +155,30 @@ void vtkInteractorStyleHaptic::OnInteractorEvent(
   switch (event)
   {
     case vtkCommand::TimerEvent:
-      if (self->TimerId && callData && *static_cast<int*>(callData) == self->TimerId)
+    {
+      const int timer = callData ? *static_cast<int*>(callData) : 0;
+      if (timer == 0 || (timer != self->TimerId && timer != self->SleepingTimerId))
       {
-        if (haptics::EmergencyStop::CountInterrupts() != self->InterruptsBefore)
-        {
-          self->Interrupted = true;
-          self->Interactor->ExitCallback();
-        }
-        else
-        {
-          self->UpdateScene();
-        }
-        // The trackball takes any timer for its own and would go on turning the camera. Last, as
-        // a render sends this command events that clear the flag.
-        self->InteractorCallback->SetAbortFlag(1);
+        break;
       }
+      if (timer == self->SleepingTimerId)
+      {
+        self->StartUpdateTimer(); // where the event loop runs again
+      }
+      else if (haptics::EmergencyStop::CountInterrupts() != self->InterruptsBefore)
+      {
+        self->Interrupted = true;
+        self->Interactor->ExitCallback();
+      }
+      else
+      {
+        self->UpdateScene();
+      }
+      // The trackball takes any timer for its own and would go on turning the camera. Last, as
+      // a render sends this command events that clear the flag.
+      self->InteractorCallback->SetAbortFlag(1);
       break;
+    }
     case vtkCommand::ExitEvent:
       self->Exit();
       break;
@@ -201,7 +210,7 @@ void vtkInteractorStyleHaptic::StartUpdateTimer()
     this->Interactor->GetInitialized() && !this->Interactor->GetDone())
   {
     haptics::EmergencyStop::Install();
-    this->InterruptsBefore = haptics::EmergencyStop::CountInterrupts();
+    this->InterruptsBefore = haptics::EmergencyStop::CountInterruptsBeforeLoop();
     std::swap(this->TimerId, this->SleepingTimerId);
     if (this->TimerId)
     {
@@ -469,9 +478,9 @@ std::string vtkInteractorStyleHaptic::DescribeState()
   const char* waits = device ? device->GetStatusMessage() : "";
   const int state = this->Scene->GetServo()->GetState();
   const bool isLive = state == vtkHapticServo::Running || state == vtkHapticServo::Stepping;
-  if (this->Scene->IsBuilding())
+  if (this->Scene->GetSurfaces()->IsBuilding())
   {
-    const int share = static_cast<int>(100.0 * this->Scene->GetBuildProgress());
+    const int share = static_cast<int>(100.0 * this->Scene->GetSurfaces()->GetBuildProgress());
     const int filled = share / 5;
     return "preparing the surfaces  [" + std::string(filled, '#') + std::string(20 - filled, '.') +
       "]  " + std::to_string(share) + " %";

@@ -10,6 +10,7 @@
 #include "vtkHapticGrip.h"
 #include "vtkHapticScene.h"
 #include "vtkHapticServo.h"
+#include "vtkHapticSurfaces.h"
 #include "vtkInteractorStyle.h"
 #include "vtkMath.h"
 #include "vtkMatrix4x4.h"
@@ -32,7 +33,7 @@ vtkStandardNewMacro(vtkMouseHapticDevice);
 
 namespace
 {
-constexpr double Arrived = 1e-7;       // [m]: less than a hand can tell; then it is there
+constexpr double Arrived = 1e-7;       // [m]: less than a hand notices; then it is there
 constexpr double HoverHeight = 0.001;  // [m] above the surface, towards the viewer
 constexpr int RepeatDelay = 25;        // [ms] in which a held key's next press follows its release
 constexpr double StartHeight = 5e-5;   // [m] from which a hand goes in that is put down pressing
@@ -45,7 +46,7 @@ constexpr int MostPlacesBetween = 12;  // that are looked at between two places 
 constexpr double DeepestFold = 0.5;    // in pressing depths; a hand does not slide over deeper
 constexpr double StrayPixels = 12.0;   // more from the cursor than that is astray
 constexpr double AlongBall = 0.3;      // of its radius, at most, in a tick
-constexpr double GivesWayAt = 1.15;    // in depths that were told; a hand gives way to more
+constexpr double GivesWayAt = 1.15;    // in depths that were set; a hand gives way to more
 constexpr double StrayTime = 0.05;     // [s] after which a hand that is astray is put down anew
 
 const haptics::DeviceRegistration Registration(
@@ -99,7 +100,7 @@ public:
   /// Whether the surface keeps the hand from where it is to go. GUI thread.
   bool IsKeptAway() const { return this->IsKept.load(std::memory_order_relaxed); }
 
-  /// The surface pushes a hand away that it would let deeper in than the hand was told: the
+  /// The surface pushes a hand away that it would let deeper in than the hand is set to: the
   /// god-object stays behind at a fold or a rim, and whoever looks at it does so only between two
   /// pictures.
   void Notice(const std::array<double, 3>& displacement) noexcept override
@@ -440,7 +441,10 @@ bool vtkMouseHapticDevice::Handle(unsigned long event, void* callData)
       return space;
     default: // the mouse has left the window: keys held there go unheard
       this->ForgetRelease();
-      this->SetPressed(false);
+      if (this->IsHeld)
+      {
+        this->SetPressed(false);
+      }
       return false;
   }
 }
@@ -468,6 +472,7 @@ bool vtkMouseHapticDevice::HandleButton(unsigned long event)
   this->ButtonsHeld &= ~static_cast<unsigned int>(LeftButton); // it is not the camera's
   std::copy_n(this->Interactor->GetEventPosition(), 2, this->Cursor);
   this->SetPressed(isPress);
+  this->IsHeld = isPress;
   return true;
 }
 
@@ -519,6 +524,7 @@ void vtkMouseHapticDevice::HandleSpace(bool down)
   {
     this->SetPressed(down);
   }
+  this->IsHeld = down || this->ReleaseTimer != 0;
 }
 
 void vtkMouseHapticDevice::ForgetRelease()
@@ -604,7 +610,7 @@ bool vtkMouseHapticDevice::Find(const View& view)
 {
   double hit[3];
   double normal[3];
-  if (!this->Scene->IntersectRay(view.From, view.Direction, hit, normal))
+  if (!this->Scene->GetSurfaces()->IntersectRay(view.From, view.Direction, hit, normal))
   {
     return false;
   }
@@ -682,7 +688,7 @@ bool vtkMouseHapticDevice::IsSmooth(const View& view, const Place& before)
     double direction[3];
     view.RayOf(between, from, direction);
     double hit[3];
-    if (!this->Scene->IntersectRay(from, direction, hit, normal) ||
+    if (!this->Scene->GetSurfaces()->IntersectRay(from, direction, hit, normal) ||
       vtkMath::Dot(previous, normal) < SharpestEdge ||
       std::abs(view.Depth(hit) - (ends[0] + share * (ends[1] - ends[0]))) > DeepestFold * depth)
     {
@@ -704,9 +710,7 @@ void vtkMouseHapticDevice::Follow(bool mustPlace)
   }
   if (this->IsCarrying())
   {
-    double hand[4] = { this->Target[0], this->Target[1], this->Target[2], 1.0 };
-    this->Scene->GetWorkspaceTransform()->MultiplyPoint(hand, hand);
-    this->Carry(view, view.Depth(hand));
+    this->Carry(view, 0.0);
     return;
   }
   const bool isSameView = view.Time == this->LookedAt;
@@ -760,11 +764,14 @@ void vtkMouseHapticDevice::Press(bool isPlaced)
   this->Want(wanted, isPlaced ? start : nullptr);
 }
 
-/// Moves the hand within the plane of the view at a depth.
-void vtkMouseHapticDevice::Carry(const View& view, double depth)
+/// Moves the hand within the plane of the view at its depth, and farther away by `change` [world
+/// unit].
+void vtkMouseHapticDevice::Carry(const View& view, double change)
 {
+  double hand[4] = { this->Target[0], this->Target[1], this->Target[2], 1.0 };
+  this->Scene->GetWorkspaceTransform()->MultiplyPoint(hand, hand);
   double world[3];
-  view.At(depth, world);
+  view.At(view.Depth(hand) + change, world);
   this->Waiting = false;
   this->IsPressing = false;
   this->Want(world, nullptr);
@@ -783,7 +790,7 @@ bool vtkMouseHapticDevice::IsHidden(const View& view, const double place[3])
 }
 
 /// In a hollow or at a rim the surface yields to the side, and the hand is less deep below the
-/// god-object than it was told: goes on until it is.
+/// god-object than it was set to: goes on until it is.
 void vtkMouseHapticDevice::Deepen(double depth)
 {
   const double missing = depth - this->Scene->GetPenetration();
@@ -890,9 +897,7 @@ void vtkMouseHapticDevice::Turn(int notches)
   }
   if (this->IsCarrying())
   {
-    double hand[4] = { this->Target[0], this->Target[1], this->Target[2], 1.0 };
-    this->Scene->GetWorkspaceTransform()->MultiplyPoint(hand, hand);
-    this->Carry(view, view.Depth(hand) + notches * CarrySteps * this->WheelStep * this->Scale());
+    this->Carry(view, notches * CarrySteps * this->WheelStep * this->Scale());
     return;
   }
   const double change = notches * this->WheelStep;
@@ -912,6 +917,7 @@ void vtkMouseHapticDevice::Turn(int notches)
 
 void vtkMouseHapticDevice::SetPressed(bool pressed)
 {
+  this->IsHeld = false;
   if (pressed == this->Pressed)
   {
     return;

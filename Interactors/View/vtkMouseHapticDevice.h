@@ -29,9 +29,9 @@
  * What it is not: a mouse cannot push back. The force that a haptic device would give is computed
  * all the same, at 1 kHz, and shown: as the arrow of vtkGodObjectActor, and as a bar and a number
  * by vtkHapticOverlay. The servo draws the pressing hand to the mouse's position smoothly, as an
- * arm would move, with the time constant Smoothing: 60 mouse events a second would be felt as
+ * arm would move, with the time constant Smoothing: 60 mouse events a second would come through as
  * steps. Where the god-object cannot follow, as at a fold, the hand gives way: it stays within 1.15
- * of the depth that was told, and is put down anew once that has lasted for 50 ms.
+ * of the depth that was asked for, and is placed anew once that has lasted for 50 ms.
  *
  * vtkInteractorStyleHaptic connects it where it is the device of its scene. Without one, call
  * SetInteractor() and SetScene().
@@ -122,12 +122,13 @@ public:
   /**
    * What mouse, wheel and space bar do, for scripts. MoveTo() takes a place in the window [pixel,
    * from the lower left]; Turn() notches of the wheel, forwards > 0; both use the renderer at that
-   * place and do nothing where the interactor or the scene is missing.
+   * place and do nothing where the interactor or the scene is missing. What SetPressed() begins
+   * stays while the mouse is outside of the window; what a held key or button begins ends there.
    */
   void MoveTo(int x, int y);
   void Turn(int notches);
-  void SetPressed(bool pressed);
-  vtkGetMacro(Pressed, bool);
+  void SetPressed(bool pressed) override;
+  bool GetPressed() override { return this->Pressed; }
   ///@}
   /** Whether the hand waits: there is no surface under the cursor, or the camera is being moved. */
   vtkGetMacro(Waiting, bool);
@@ -166,7 +167,7 @@ private:
   bool IsElsewhere();
   bool Find(const View& view);
   void Follow(bool mustPlace);
-  void Carry(const View& view, double depth);
+  void Carry(const View& view, double change);
   bool IsSmooth(const View& view, const Place& before);
   void Press(bool isPlaced);
   void Deepen(double depth);
@@ -188,8 +189,9 @@ private:
   std::array<double, 3> Target{ { 0.0, 0.0, 0.05 } };
   int Cursor[2] = { 0, 0 };
   bool Pressed = false;
+  bool IsHeld = false; ///< Pressed, by a key or button that is held
   bool Waiting = false;
-  bool IsPressing = false;              ///< the hand was told to be in the surface
+  bool IsPressing = false;              ///< the hand is to be in the surface
   bool ShiftPresses = false;            ///< the left button does, with Shift
   unsigned int ButtonsHeld = 0;         ///< of the mouse, for the camera: a bit each
   int ReleaseTimer = 0;                 ///< runs out where the space bar was really let go
@@ -201,7 +203,7 @@ private:
   int FoundAt[2] = { 0, 0 };            ///< the cursor then
   vtkMTimeType LookedAt = 0;            ///< the camera's time then
   double Pixel = 0.0;                   ///< its width there [world unit]
-  double Extra = 0.0;       ///< deeper than told, for where the surface yields [world unit]
+  double Extra = 0.0;       ///< deeper than asked for, where the surface yields [world unit]
   double AstraySince = 0.0; ///< [s] the hand has not been where the cursor is; 0: it is there
   double WheelStep = 0.001;
   double PressDepth = 0.003;

@@ -14,9 +14,11 @@
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMSessionProxyManager.h"
 #include "vtkSMSourceProxy.h"
+#include "vtkSMTrace.h"
 #include "vtkSMViewProxy.h"
 #include "vtkSmartPointer.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -26,6 +28,7 @@ namespace
 {
 constexpr double PointSize = 12.0; // [pixel]
 constexpr double LineWidth = 3.0;  // [pixel]
+const std::string ForceSeries = "ForceMagnitude";
 
 /// Makes the source and its representation, null in a view that is no render view.
 vtkSMProxy* Make(vtkPolyData* record, const char* name, vtkSMProxy*& shown)
@@ -61,6 +64,26 @@ void Render(vtkSMProxy* shown)
 {
   shown->UpdateVTKObjects();
   pqActiveObjects::instance().activeView()->render();
+}
+
+/// Of a line chart's series, where it has the force among them.
+void ShowForceAlone(vtkSMProxy* chart)
+{
+  vtkSMPropertyHelper visible(chart, "SeriesVisibility");
+  std::vector<std::string> series;
+  for (unsigned int i = 0; i + 1 < visible.GetNumberOfElements(); i += 2)
+  {
+    series.emplace_back(visible.GetAsString(i));
+  }
+  if (std::find(series.begin(), series.end(), ForceSeries) == series.end())
+  {
+    return;
+  }
+  for (const std::string& name : series)
+  {
+    visible.SetStatus(name.c_str(), name == ForceSeries ? 1 : 0);
+  }
+  chart->UpdateVTKObjects();
 }
 
 /// Lines that are coloured by the force.
@@ -112,6 +135,26 @@ vtkSMProxy* MakeCurvesSource(vtkPolyData* curves)
   return MakeLines(curves, "HapticCurves");
 }
 
+void BeginChartOfTrace(vtkSMProxy* representation)
+{
+  if (!representation || !representation->GetProperty("SeriesVisibility") ||
+    !representation->GetProperty("Input"))
+  {
+    return;
+  }
+  // The source itself, or what Plot Data makes of it.
+  vtkSMProxy* source = vtkSMPropertyHelper(representation, "Input").GetAsProxy();
+  if (source && source->GetXMLName() == std::string("PlotAttributes"))
+  {
+    source = vtkSMPropertyHelper(source, "Input").GetAsProxy();
+  }
+  if (source && source->GetXMLName() == std::string("HapticRecord"))
+  {
+    SM_SCOPED_TRACE(PropertiesModified).arg("proxy", representation);
+    ShowForceAlone(representation);
+  }
+}
+
 void PlotTrace(vtkSMProxy* trace)
 {
   SCOPED_UNDO_SET("Plot Force");
@@ -142,17 +185,7 @@ void PlotTrace(vtkSMProxy* trace)
   vtkSMProxy* shown = controller->Show(source, 0, vtkSMViewProxy::SafeDownCast(view));
   vtkSMPropertyHelper(shown, "UseIndexForXAxis").Set(0);
   vtkSMPropertyHelper(shown, "XArrayName").Set("Time");
-  vtkSMPropertyHelper visible(shown, "SeriesVisibility");
-  std::vector<std::string> series;
-  for (unsigned int i = 0; i + 1 < visible.GetNumberOfElements(); i += 2)
-  {
-    series.emplace_back(visible.GetAsString(i));
-  }
-  for (const std::string& name : series)
-  {
-    visible.SetStatus(name.c_str(), name == "ForceMagnitude" ? 1 : 0);
-  }
-  shown->UpdateVTKObjects();
+  ShowForceAlone(shown);
   vtkSMViewProxy::SafeDownCast(view)->StillRender();
   pqActiveObjects::instance().setActiveView(active);
   pqActiveObjects::instance().setActiveSource(selected);

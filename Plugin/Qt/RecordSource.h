@@ -23,6 +23,11 @@ vtkSMProxy* MakeCurvesSource(vtkPolyData* curves);
 /// [s]. Other series can be chosen in its properties. The active view stays the active one. GUI
 /// thread.
 void PlotTrace(vtkSMProxy* trace);
+
+/// Where a representation that has just been made is the line chart of a source that is a trace, as
+/// Plot Data makes it, lets it begin with ForceMagnitude alone: ParaView begins with all series,
+/// ids and newtons per metre among them. Any other representation stays as it is. GUI thread.
+void BeginChartOfTrace(vtkSMProxy* representation);
 }
 
 #endif

@@ -3,22 +3,32 @@
 #include "RecordSource.h"
 #include "pqApplicationCore.h"
 #include "pqCoreUtilities.h"
+#include "pqHapticsExamples.h"
 #include "pqHapticsForceChart.h"
+#include "pqHapticsHeldKey.h"
 #include "pqHapticsManager.h"
 #include "pqHapticsPen.h"
 #include "pqHapticsRecorder.h"
+#include "pqHelpReaction.h"
+#include "vtkHapticDevice.h"
 #include "vtkHapticLandmarks.h"
 #include "vtkHapticScene.h"
-#include "vtkMouseHapticDevice.h"
+#include "vtkPVHapticReadings.h"
+#include "vtkPVHapticRecords.h"
 #include "vtkPVHapticScene.h"
+#include "vtkPVHapticWorkspace.h"
 
 #include <QAction>
 #include <QIcon>
 #include <QMainWindow>
 #include <QPointer>
+#include <QTimer>
+
+#include <utility>
 
 namespace
 {
+const QString TutorialPage = "qthelp://Haptics.org/Haptics/touch.html";
 const QString TouchTip =
   "Touch the selected sources with a haptic device; press again to release it";
 }
@@ -40,6 +50,19 @@ pqHapticsActions::pqHapticsActions(QObject* parent)
   this->makeRunning();
   this->makeMarking();
   this->makeKeeping();
+  this->makeLearning();
+  // What is on while its key is held, as a brush is down while it is pressed.
+  for (QAction* held : { this->Clutch, this->Paint, this->Draw })
+  {
+    new pqHapticsHeldKey(held);
+  }
+  const std::pair<QAction*, const char*> icons[] = { { this->Engage, "Engage" },
+    { this->Press, "Press" }, { this->Drop, "Landmark" }, { this->Clutch, "Clutch" },
+    { this->Record, "Record" } };
+  for (const auto& [action, icon] : icons)
+  {
+    action->setIcon(QIcon(QString(":/Haptics/%1.svg").arg(icon)));
+  }
   this->connect(this->Manager, &pqHapticsManager::updated, this, &pqHapticsActions::followHand);
   this->connect(
     this->Manager, &pqHapticsManager::engagedChanged, this, &pqHapticsActions::followHand);
@@ -92,9 +115,9 @@ void pqHapticsActions::makeRunning()
   this->connect(this->Press, &QAction::triggered, manager,
     [manager](bool on)
     {
-      if (vtkMouseHapticDevice* mouse = manager->mouse())
+      if (vtkHapticDevice* device = manager->viewDevice())
       {
-        mouse->SetPressed(on);
+        device->SetPressed(on);
       }
     });
 
@@ -128,12 +151,14 @@ void pqHapticsActions::makeMarking()
     });
 
   this->Paint = this->add("actionHapticPaint", "Paint Selection", QKeySequence("P"),
-    "While it is on, the cells that are touched are added to ParaView's selection");
+    "While it is on, or its key is held, the cells that are touched are added to ParaView's "
+    "selection");
   this->Paint->setCheckable(true);
   this->SelectTouched =
     this->add("actionHapticSelectTouched", "Select Touched Cell", QKeySequence(),
-      "While it is on, the cell that is touched is ParaView's selection: spreadsheets, and sources "
-      "that are linked with this one, follow the hand");
+      "While it is on, the cell that is touched is ParaView's selection: sources that are linked "
+      "with "
+      "this one, and spreadsheets that show only selected elements, follow the hand");
   this->SelectTouched->setCheckable(true);
   for (QAction* action : { this->Paint, this->SelectTouched })
   {
@@ -141,8 +166,9 @@ void pqHapticsActions::makeMarking()
     this->connect(action, &QAction::triggered, other, [other] { other->setChecked(false); });
   }
   this->Draw = this->add("actionHapticDraw", "Draw Curves", QKeySequence("C"),
-    "While it is on, each stroke becomes a curve on the surface; then a source of them, with force "
-    "and data along each");
+    "While it is on, or its key is held, each stroke becomes a curve on the surface; then a source "
+    "of "
+    "them, with force and data along each");
   this->Draw->setCheckable(true);
   this->connect(this->Draw, &QAction::triggered, manager->pen(), &pqHapticsPen::draw);
 }
@@ -162,7 +188,7 @@ void pqHapticsActions::makeKeeping()
   this->connect(this->KeepTrace, &QAction::triggered, manager,
     [manager](bool on) { manager->set("Keep Haptic Trace", "RecordTrace", on); });
   this->TraceToSource = this->add("actionHapticTraceToSource", "Trace to Source", QKeySequence(),
-    "Make a source of where the hand went and what it felt while Keep Trace was on");
+    "Make a source of the way of the hand and the forces on it while Keep Trace was on");
   this->connect(this->TraceToSource, &QAction::triggered, manager,
     [manager]
     {
@@ -172,7 +198,7 @@ void pqHapticsActions::makeKeeping()
       }
     });
   this->PlotForce = this->add("actionHapticPlotForce", "Plot Trace", QKeySequence(),
-    "Make a source of the trace, and a line chart of the force over time beside the view");
+    "Make a source of the trace, and a line chart of the force over time next to the view");
   this->connect(this->PlotForce, &QAction::triggered, manager,
     [manager]
     {
@@ -186,6 +212,28 @@ void pqHapticsActions::makeKeeping()
     QKeySequence("Ctrl+Shift+F"), "Show the force of the last ten seconds while the hand touches");
   this->ForceChart->setCheckable(true);
   this->connect(this->ForceChart, &QAction::triggered, this, &pqHapticsActions::showForceChart);
+}
+
+void pqHapticsActions::makeLearning()
+{
+  auto* menu = new pqHapticsExamples(this->Manager, nullptr);
+  // The window is not there yet where ParaView loads the plugin as it starts.
+  QTimer::singleShot(
+    0, menu, [menu] { menu->setParent(pqCoreUtilities::mainWidget(), menu->windowFlags()); });
+  QAction* examples = menu->menuAction();
+  examples->setObjectName("actionHapticExamples");
+  this->Actions.append(examples);
+  this->Tutorial = new QAction("Haptics Tutorial", this);
+  this->Tutorial->setObjectName("actionHapticTutorial");
+  this->Tutorial->setStatusTip(
+    "Touch a contour in ten minutes; and a page for each filter and property");
+#ifndef HAPTICS_HAS_HELP
+  this->Tutorial->setEnabled(false);
+  this->Tutorial->setStatusTip(
+    "This plugin was built without the tools of Qt that make help pages");
+#endif
+  this->connect(
+    this->Tutorial, &QAction::triggered, this, [] { pqHelpReaction::showHelp(TutorialPage); });
 }
 
 /// Made when it is first asked for.
@@ -214,15 +262,15 @@ void pqHapticsActions::followSelection()
 void pqHapticsActions::followHand()
 {
   vtkPVHapticScene* scene = this->Manager->clientScene();
-  vtkMouseHapticDevice* mouse = this->Manager->mouse();
+  vtkHapticDevice* device = this->Manager->viewDevice();
   const bool isEngaged = this->Manager->isEngaged();
-  const int landmarks = scene ? scene->GetNumberOfLandmarks() : 0;
+  const int landmarks = scene ? scene->GetRecords()->GetNumberOfLandmarks() : 0;
   this->Engage->setChecked(isEngaged);
-  this->Press->setEnabled(isEngaged && mouse);
-  this->Press->setChecked(mouse && mouse->GetPressed());
+  this->Press->setEnabled(isEngaged && device);
+  this->Press->setChecked(device && device->GetPressed());
   this->Clutch->setEnabled(isEngaged);
-  this->Clutch->setChecked(scene && scene->GetClutched());
-  this->Drop->setEnabled(isEngaged && scene->GetTouching());
+  this->Clutch->setChecked(scene && scene->GetWorkspace()->GetClutched());
+  this->Drop->setEnabled(isEngaged && scene->GetReadings()->GetTouching());
   this->RemoveLast->setEnabled(landmarks > 0);
   this->LandmarksToSource->setEnabled(landmarks > 0);
   this->Paint->setEnabled(isEngaged);
@@ -230,7 +278,7 @@ void pqHapticsActions::followHand()
   this->Draw->setEnabled(isEngaged);
   this->Draw->setChecked(this->Manager->pen()->isDrawing());
   this->Record->setChecked(this->Manager->recorder()->isArmed());
-  const bool keepsTrace = scene && scene->GetRecordTrace();
+  const bool keepsTrace = scene && scene->GetRecords()->GetRecordTrace();
   this->KeepTrace->setChecked(keepsTrace);
   this->HasTrace = this->HasTrace || (keepsTrace && isEngaged);
   this->TraceToSource->setEnabled(scene && this->HasTrace);

@@ -1,6 +1,7 @@
 /**
  * @class   pqHapticsActions
- * @brief   What a user does with the hand, as actions: in the menu Haptics and in the toolbar.
+ * @brief   What a user does with the hand, as actions: in the menus Haptics and Help, and in the
+ * toolbar.
  *
  * All of them are in the menu bar, so that ParaView's Customize Shortcuts lists them. An action is
  * disabled where it could do nothing; its tool tip says why then. GUI thread.
@@ -31,7 +32,13 @@ public:
 
   /** All of them, in the order of the menu. */
   QList<QAction*> all() const { return this->Actions; }
-  QAction* touch() const { return this->Touch; }
+  /** What the hand does at once, each with an icon. */
+  QList<QAction*> ofToolBar() const
+  {
+    return { this->Touch, this->Engage, this->Press, this->Drop, this->Clutch, this->Record };
+  }
+  /** Not one of all(): it belongs into the menu Help. */
+  QAction* tutorial() const { return this->Tutorial; }
   QAction* paint() const { return this->Paint; }
   QAction* selectTouched() const { return this->SelectTouched; }
 
@@ -47,6 +54,7 @@ private:
   void makeRunning();
   void makeMarking();
   void makeKeeping();
+  void makeLearning();
   void showForceChart(bool show);
 
   pqHapticsManager* Manager;
@@ -68,6 +76,7 @@ private:
   QAction* TraceToSource = nullptr;
   QAction* PlotForce = nullptr;
   QAction* ForceChart = nullptr;
+  QAction* Tutorial = nullptr;
 };
 
 #endif

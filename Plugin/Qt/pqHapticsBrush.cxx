@@ -8,6 +8,7 @@
 #include "vtkIdTypeArray.h"
 #include "vtkNew.h"
 #include "vtkPVDataInformation.h"
+#include "vtkPVHapticReadings.h"
 #include "vtkPVHapticScene.h"
 #include "vtkSMProxy.h"
 #include "vtkSMSelectionHelper.h"
@@ -36,8 +37,9 @@ void pqHapticsBrush::paint()
     return;
   }
   vtkPVHapticScene* scene = this->Manager->clientScene();
-  pqOutputPort* port = scene && scene->GetTouching() ? this->Manager->touchedPort() : nullptr;
-  const vtkIdType cell = port ? scene->GetTouchedCell() : -1;
+  pqOutputPort* port =
+    scene && scene->GetReadings()->GetTouching() ? this->Manager->touchedPort() : nullptr;
+  const vtkIdType cell = port ? scene->GetReadings()->GetTouchedCell() : -1;
   if (cell < 0)
   {
     return;

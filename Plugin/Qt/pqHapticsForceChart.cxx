@@ -11,9 +11,11 @@
 #include "vtkGenericOpenGLRenderWindow.h"
 #include "vtkHapticScene.h"
 #include "vtkHapticServo.h"
+#include "vtkPen.h"
 #include "vtkPlot.h"
 #include "vtkTable.h"
 
+#include <QTimer>
 #include <QVTKOpenGLNativeWidget.h>
 
 #include <algorithm>
@@ -22,7 +24,8 @@ namespace
 {
 constexpr qint64 DrawInterval = 100;   // [ms]
 constexpr double UnlimitedForce = 3.3; // [N], the axis where nothing limits the force
-constexpr double Headroom = 1.05;      // of the axis above the largest force
+constexpr const char* EmptyTitle = "The force is drawn here while the hand is engaged";
+constexpr double Headroom = 1.05; // of the axis above the largest force
 }
 
 pqHapticsForceChart::pqHapticsForceChart(QWidget* parent)
@@ -37,17 +40,26 @@ pqHapticsForceChart::pqHapticsForceChart(QWidget* parent)
   this->View->SetRenderWindow(window);
   this->View->SetInteractor(this->Widget->interactor());
 
-  for (const char* name : { "Time [s]", "Force [N]" })
+  for (vtkTable* table : { this->Table.Get(), this->LimitTable.Get() })
   {
-    vtkNew<vtkFloatArray> column;
-    column->SetName(name);
-    this->Table->AddColumn(column);
+    for (const char* name : { "Time [s]", "Force [N]" })
+    {
+      vtkNew<vtkFloatArray> column;
+      column->SetName(name);
+      table->AddColumn(column);
+    }
   }
+  this->LimitTable->SetNumberOfRows(2);
   vtkPlot* line = this->Chart->AddPlot(vtkChart::LINE);
   line->SetInputData(this->Table, 0, 1);
   line->SetColor(200, 60, 20, 255);
   line->SetWidth(2.0f);
   line->SetVisible(false);
+  // Always there: a chart with no line to show draws no axes either.
+  vtkPlot* limit = this->Chart->AddPlot(vtkChart::LINE);
+  limit->SetInputData(this->LimitTable, 0, 1);
+  limit->SetColor(128, 128, 128, 255);
+  limit->GetPen()->SetLineType(vtkPen::DASH_LINE);
   this->Chart->GetAxis(vtkAxis::BOTTOM)->SetTitle("Time [s]");
   this->Chart->GetAxis(vtkAxis::LEFT)->SetTitle("Force [N]");
   for (const int axis : { vtkAxis::BOTTOM, vtkAxis::LEFT })
@@ -56,6 +68,13 @@ pqHapticsForceChart::pqHapticsForceChart(QWidget* parent)
   }
   this->View->GetScene()->AddItem(this->Chart);
 
+  // Shown, it has axes and a word at once; but not before there is something to draw on.
+  this->connect(this, &QDockWidget::visibilityChanged, this,
+    [this]
+    {
+      this->IsOld = true;
+      QTimer::singleShot(DrawInterval, this, &pqHapticsForceChart::draw);
+    });
   pqHapticsManager* manager = pqHapticsManager::instance();
   this->connect(manager, &pqHapticsManager::sceneChanged, this, &pqHapticsForceChart::followScene);
   this->connect(manager, &pqHapticsManager::updated, this, &pqHapticsForceChart::draw);
@@ -118,11 +137,11 @@ void pqHapticsForceChart::takeTicks()
 void pqHapticsForceChart::draw()
 {
   if (!this->IsOld || !this->Widget->isVisible() ||
-    (this->Drawn.isValid() && this->Drawn.elapsed() < DrawInterval))
+    (this->SinceDrawing.isValid() && this->SinceDrawing.elapsed() < DrawInterval))
   {
     return;
   }
-  this->Drawn.start();
+  this->SinceDrawing.start();
   this->IsOld = false;
   this->Table->SetNumberOfRows(static_cast<vtkIdType>(this->Samples.size()));
   double largest = 0.0;
@@ -133,12 +152,23 @@ void pqHapticsForceChart::draw()
     largest = std::max(largest, this->Samples[i].Force);
   }
   this->Table->Modified();
-  this->Chart->GetPlot(0)->SetVisible(this->Samples.size() > 1); // no line has fewer points
+  const bool hasLine = this->Samples.size() > 1; // no line has fewer points
+  this->Chart->GetPlot(0)->SetVisible(hasLine);
+  this->Chart->SetTitle(hasLine ? "" : EmptyTitle);
   const double end = this->Samples.empty() ? 0.0 : this->Samples.back().Time;
   const double limit =
     this->Scene ? this->Scene->GetServo()->GetEffectiveMaximumForce() : UnlimitedForce;
-  const double top = limit > 0.0 && limit < VTK_DOUBLE_MAX ? limit : UnlimitedForce;
-  this->Chart->GetAxis(vtkAxis::BOTTOM)->SetRange(std::max(end - Span, 0.0), std::max(end, Span));
+  const bool isLimited = limit > 0.0 && limit < VTK_DOUBLE_MAX;
+  const double top = isLimited ? limit : UnlimitedForce;
+  const double range[2] = { std::max(end - Span, 0.0), std::max(end, Span) };
+  for (int i = 0; i < 2; ++i)
+  {
+    this->LimitTable->SetValue(i, 0, range[i]);
+    this->LimitTable->SetValue(i, 1, top);
+  }
+  this->LimitTable->Modified();
+  this->Chart->GetPlot(1)->SetOpacity(isLimited ? 1.0 : 0.0);
+  this->Chart->GetAxis(vtkAxis::BOTTOM)->SetRange(range[0], range[1]);
   this->Chart->GetAxis(vtkAxis::LEFT)->SetRange(0.0, Headroom * std::max(top, largest));
   this->View->GetScene()->SetDirty(true);
   this->Widget->renderWindow()->Render();

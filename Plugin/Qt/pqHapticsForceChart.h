@@ -57,11 +57,12 @@ private:
   unsigned long Observer = 0;
   std::deque<Sample> Samples;
   bool IsOld = true; // the picture lacks samples
-  QElapsedTimer Drawn;
+  QElapsedTimer SinceDrawing;
   QVTKOpenGLNativeWidget* Widget;
   vtkNew<vtkContextView> View;
   vtkNew<vtkChartXY> Chart;
   vtkNew<vtkTable> Table;
+  vtkNew<vtkTable> LimitTable; // of the line at the largest force
 };
 
 #endif

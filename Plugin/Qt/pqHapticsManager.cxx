@@ -1,5 +1,7 @@
 #include "pqHapticsManager.h"
 
+#include "PythonStates.h"
+#include "RecordSource.h"
 #include "pqActiveObjects.h"
 #include "pqApplicationCore.h"
 #include "pqCoreUtilities.h"
@@ -19,9 +21,10 @@
 #include "vtkCommand.h"
 #include "vtkHapticDevice.h"
 #include "vtkHapticScene.h"
-#include "vtkMouseHapticDevice.h"
 #include "vtkNew.h"
 #include "vtkPVDataInformation.h"
+#include "vtkPVHapticPicture.h"
+#include "vtkPVHapticReadings.h"
 #include "vtkPVHapticScene.h"
 #include "vtkPVRenderView.h"
 #include "vtkSMHapticSceneProxy.h"
@@ -47,19 +50,27 @@
 namespace
 {
 constexpr const char* Group = "haptics";
-const std::string HapticSurface = "Haptic Surface";
+constexpr const char* HapticSurface = "Haptic Surface";
 constexpr const char* DeviceSetting = "Haptics/Device";
 
 constexpr int RestTime = 250; // [ms] without change, after which the picture is drawn in full
 
-/// Whether a representation can be touched, as it is drawn or beside.
+/// How a representation draws its source.
+QString typeOf(vtkSMProxy* representation)
+{
+  return representation && representation->GetProperty("Representation")
+    ? vtkSMPropertyHelper(representation, "Representation").GetAsString()
+    : "";
+}
+
+/// Whether a representation can be touched, as it is drawn or in addition.
 bool isHaptic(vtkSMProxy* representation)
 {
   const bool hasTypes = representation && representation->GetProperty("Representation");
   return hasTypes &&
     ((representation->GetProperty("Touchable") &&
        vtkSMPropertyHelper(representation, "Touchable").GetAsInt() != 0) ||
-      HapticSurface == vtkSMPropertyHelper(representation, "Representation").GetAsString());
+      typeOf(representation) == HapticSurface);
 }
 
 /// The outputs that are selected in the pipeline browser.
@@ -96,6 +107,7 @@ pqHapticsManager::pqHapticsManager(QObject* parent)
 {
   this->setObjectName("HapticsManager");
   new pqHapticsBrush(this);
+  haptics::ExtendPython();
   this->Resting.setSingleShot(true);
   this->Resting.setInterval(RestTime);
   this->connect(&this->Resting, &QTimer::timeout, this, &pqHapticsManager::redraw);
@@ -111,6 +123,9 @@ pqHapticsManager::pqHapticsManager(QObject* parent)
   this->connect(active, &pqActiveObjects::selectionChanged, this, &pqHapticsManager::choiceChanged);
   this->connect(active, &pqActiveObjects::viewChanged, this, &pqHapticsManager::choiceChanged);
   this->connect(active, &pqActiveObjects::dataUpdated, this, &pqHapticsManager::choiceChanged);
+  // A new source is selected before it counts as one that was not applied.
+  this->connect(pqApplicationCore::instance()->getServerManagerModel(),
+    &pqServerManagerModel::modifiedStateChanged, this, &pqHapticsManager::choiceChanged);
   this->connect(this, &pqHapticsManager::engagedChanged, this, &pqHapticsManager::choiceChanged);
 
   // A state file or a script may bring a scene, or take it away.
@@ -122,6 +137,14 @@ pqHapticsManager::pqHapticsManager(QObject* parent)
       this->findScene();
     }
   };
+  // When its data are known.
+  this->connect(pqApplicationCore::instance()->getServerManagerModel(),
+    &pqServerManagerModel::representationAdded, this,
+    [](pqRepresentation* representation)
+    {
+      QTimer::singleShot(0, representation,
+        [representation] { haptics::BeginChartOfTrace(representation->getProxy()); });
+    });
   using Registered = QOverload<const QString&, const QString&, vtkSMProxy*>;
   this->connect(observer, Registered::of(&pqServerManagerObserver::proxyRegistered), this, look);
   this->connect(observer, Registered::of(&pqServerManagerObserver::proxyUnRegistered), this, look);
@@ -157,16 +180,16 @@ vtkHapticScene* pqHapticsManager::hand() const
   return scene ? scene->GetScene() : nullptr;
 }
 
-vtkMouseHapticDevice* pqHapticsManager::mouse() const
+vtkHapticDevice* pqHapticsManager::viewDevice() const
 {
-  vtkHapticScene* hand = this->hand();
-  return hand ? vtkMouseHapticDevice::SafeDownCast(hand->GetDevice()) : nullptr;
+  vtkHapticDevice* device = this->hand() ? this->hand()->GetDevice() : nullptr;
+  return device && device->UsesView() ? device : nullptr;
 }
 
 pqOutputPort* pqHapticsManager::touchedPort() const
 {
   vtkPVHapticScene* scene = this->clientScene();
-  const int touched = scene ? scene->GetTouchedRepresentation() : -1;
+  const int touched = scene ? scene->GetReadings()->GetTouchedRepresentation() : -1;
   vtkSMPropertyHelper surfaces(this->Scene, "Surfaces", true);
   if (touched < 0 || touched >= static_cast<int>(surfaces.GetNumberOfElements()))
   {
@@ -245,6 +268,7 @@ void pqHapticsManager::findScene()
     this->Begin = begin;
     pqCoreUtilities::connect(
       begin, vtkCommand::PropertyModifiedEvent, this, SIGNAL(sceneChanged()));
+    emit this->sceneChanged(); // there was no server before that had them
   }
 }
 
@@ -326,17 +350,21 @@ void pqHapticsManager::touch()
   pqView* view = pqActiveObjects::instance().activeView();
   const QList<pqOutputPort*> ports = selectedPorts();
   SCOPED_UNDO_SET(title);
+  bool isDrawn = !view->getViewProxy()->GetNeedsUpdate();
   for (pqOutputPort* port : ports)
   {
+    pqDataRepresentation* before = port->getRepresentation(view);
+    const QString type = before && before->isVisible() ? typeOf(before->getProxy()) : QString();
     QString problem;
     if (!this->show(port, view, problem))
     {
       this->complain(title, problem);
       return;
     }
+    isDrawn = isDrawn && type == typeOf(port->getRepresentation(view)->getProxy());
   }
   const bool isAdded = this->Engaged && view == this->View;
-  this->engage(title, !isAdded);
+  this->engage(title, !isAdded, isDrawn);
 }
 
 bool pqHapticsManager::show(pqOutputPort* port, pqView* view, QString& problem)
@@ -366,7 +394,8 @@ bool pqHapticsManager::show(pqOutputPort* port, pqView* view, QString& problem)
   return true;
 }
 
-void pqHapticsManager::engage(const QString& title, bool anew)
+/// `isDrawn`: the view shows all that is to be seen, but for the hand.
+void pqHapticsManager::engage(const QString& title, bool anew, bool isDrawn)
 {
   vtkSMProxy* scene = this->makeScene();
   if (!scene)
@@ -381,7 +410,7 @@ void pqHapticsManager::engage(const QString& title, bool anew)
       title, "The active view shows nothing that can be touched. Select a source and press Touch.");
     return;
   }
-  this->View->forceRender(); // surfaces come to the client with a render
+  this->bringSurfaces(isDrawn);
   if (anew)
   {
     this->setForNow("Engaged", 0);
@@ -392,7 +421,27 @@ void pqHapticsManager::engage(const QString& title, bool anew)
     this->focusView();
   }
   this->Asked = title;
-  this->poll();
+  // The first picture of a hand takes a while: that it is on its way is shown before.
+  if (this->look() && !this->Timer.isActive())
+  {
+    this->draw();
+  }
+}
+
+/// From other processes surfaces come to the client with a render; within one it takes none, which
+/// may last long.
+void pqHapticsManager::bringSurfaces(bool isDrawn)
+{
+  if (this->View->getServer()->isRemote())
+  {
+    this->View->forceRender();
+    return;
+  }
+  this->View->getViewProxy()->Update();
+  if (!isDrawn)
+  {
+    this->View->render();
+  }
 }
 
 /// Keys go to where the hand is.
@@ -405,15 +454,34 @@ void pqHapticsManager::focusView()
   }
 }
 
-/// At ParaView's level of detail while the hand moves; data that changed are drawn in full.
+/// Draws the hand in each view where what is shown of it is outdated: over the rest of the picture,
+/// else with that. Data that changed are drawn in full.
 void pqHapticsManager::draw()
 {
-  vtkSMViewProxy* view = this->View->getViewProxy();
-  if (!this->Engaged || view->GetNeedsUpdate())
+  vtkPVHapticScene* scene = this->clientScene();
+  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  for (pqRenderView* shown : model->findItems<pqRenderView*>())
   {
-    this->View->render(); // asks for one: many of them become one
-    return;
+    vtkSMViewProxy* view = shown->getViewProxy();
+    auto* drawn = vtkPVRenderView::SafeDownCast(view->GetClientSideObject());
+    if (!scene->GetPicture()->IsOutdated(drawn))
+    {
+      continue;
+    }
+    if (view->GetNeedsUpdate())
+    {
+      shown->render(); // asks for one: many of them become one
+    }
+    else if (!scene->GetPicture()->DrawHand(drawn))
+    {
+      this->drawAll(view);
+    }
   }
+}
+
+/// At ParaView's level of detail while the hand moves.
+void pqHapticsManager::drawAll(vtkSMViewProxy* view)
+{
   // Where pictures take long, other events have as much time as they.
   if (this->Drawn.isValid() && this->Drawn.elapsed() < this->DrawingTime)
   {
@@ -457,7 +525,8 @@ void pqHapticsManager::setEngaged(bool engaged)
 {
   if (engaged)
   {
-    this->engage("Engage", false);
+    pqView* view = this->View ? +this->View : pqActiveObjects::instance().activeView();
+    this->engage("Engage", false, view && !view->getViewProxy()->GetNeedsUpdate());
   }
   else if (this->Scene)
   {
@@ -512,6 +581,7 @@ int pqHapticsManager::followSurfaces()
     SCOPED_UNDO_EXCLUDE();
     surfaces.Set(wanted.data(), count);
     this->Scene->UpdateVTKObjects();
+    emit this->choiceChanged(); // by an undo, too, the selection is touched or not
   }
   return static_cast<int>(count);
 }
@@ -550,32 +620,49 @@ void pqHapticsManager::command(const char* property)
 
 void pqHapticsManager::redraw()
 {
-  if (this->View)
+  vtkPVHapticScene* scene = this->clientScene();
+  vtkPVHapticPicture* picture = scene ? scene->GetPicture() : nullptr;
+  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  for (pqRenderView* shown : model->findItems<pqRenderView*>())
   {
-    this->View->render();
+    vtkSMViewProxy* view = shown->getViewProxy();
+    auto* drawn = vtkPVRenderView::SafeDownCast(view->GetClientSideObject());
+    if (picture && picture->IsShownIn(drawn) &&
+      (view->GetNeedsUpdate() || !picture->DrawHand(drawn)))
+    {
+      shown->render();
+    }
   }
 }
 
 void pqHapticsManager::poll()
 {
+  if (this->look())
+  {
+    this->draw();
+  }
+}
+
+/// Takes in what has changed. Whether a picture is outdated by it.
+bool pqHapticsManager::look()
+{
+  bool isOutdated = false;
   vtkPVHapticScene* scene = this->clientScene();
   const bool busy = this->View && this->View->getServer()->isProgressPending();
   if (scene && !busy) // a pipeline that is being computed is looked at when it is done
   {
     if (this->followActiveView())
     {
-      this->engage("Touch", true); // another view releases the hand
-      return;
+      this->engage("Touch", true, false); // another view releases the hand
+      return false;
     }
     this->followSurfaces();
-    if (scene->Update() && this->View)
-    {
-      this->draw();
-    }
+    isOutdated = scene->Update();
   }
   this->noticeState();
   this->proveAsked();
   emit this->updated();
+  return isOutdated;
 }
 
 /// Whether anything can change by itself, so that the scene is to be looked at again.

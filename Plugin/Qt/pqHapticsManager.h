@@ -4,7 +4,7 @@
  *
  * There is one hand, so there is one scene proxy (group "haptics", name "HapticScene") a session.
  * It is made when it is first needed; one that a state file or a script has registered is taken.
- * This class edits that proxy and never touches VTK objects but to read what the hand feels.
+ * This class edits that proxy and never touches VTK objects but to read the state of the hand.
  *
  * The scene follows ParaView: its surfaces are the touchable representations of its view, and its
  * view is the active one, where that shows such a surface. The proxy itself sees to
@@ -15,7 +15,7 @@
  * level of detail while the hand moves, in full when it rests. At other times nothing runs. Nothing
  * here waits or runs an event loop. GUI thread.
  *
- * Errors: what a user asked for and cannot have is told in a message box; what goes wrong later is
+ * Errors: a message box says what a user asked for and cannot have; what goes wrong later is
  * in ParaView's output window and in the panel.
  */
 #ifndef Haptics_pqHapticsManager_h
@@ -34,9 +34,10 @@ class pqHapticsRecorder;
 class pqOutputPort;
 class pqView;
 class vtkHapticScene;
-class vtkMouseHapticDevice;
+class vtkHapticDevice;
 class vtkPVHapticScene;
 class vtkSMProxy;
+class vtkSMViewProxy;
 
 class pqHapticsManager : public QObject
 {
@@ -61,8 +62,8 @@ public:
   vtkHapticScene* hand() const;
   ///@}
 
-  /** The device, where it is a mouse that moves the hand; else null. */
-  vtkMouseHapticDevice* mouse() const;
+  /** The device, where the mouse and keys of a view move it; else null. */
+  vtkHapticDevice* viewDevice() const;
   /** Never null. */
   pqHapticsRecorder* recorder() const { return this->Recorder; }
   /** Never null. */
@@ -88,7 +89,7 @@ public Q_SLOTS:
   /**
    * Makes the selected sources touchable in the active view, fits the workspace to them and engages
    * the device; adds them where it is engaged. Undo makes them untouchable again. Where that is not
-   * possible nothing changes, and a message box tells why.
+   * possible nothing changes, and a message box says why.
    */
   void touch();
   /** Engages the hand on what is touchable in the active view, or releases it. */
@@ -105,16 +106,16 @@ public Q_SLOTS:
   void command(const char* property);
   /** Looks at the scene now. */
   void poll();
-  /** Draws the view that shows the hand, for what is drawn otherwise than before. */
+  /** Draws the views that show the hand, for what is drawn otherwise than before. */
   void redraw();
-  /** Tells the user what cannot be done and what to do instead, in a box that waits for nobody. */
+  /** Shows what cannot be done and what to do instead, in a message box that is not modal. */
   void complain(const QString& title, const QString& message);
 
 Q_SIGNALS:
   /** scene() is another one, or none, or what it will begin with has changed. */
   void sceneChanged();
   void engagedChanged(bool engaged);
-  /** What the scene tells may have changed. */
+  /** The state of the scene may have changed. */
   void updated();
   /** What is selected, or whether it can be touched, may have changed. */
   void choiceChanged();
@@ -126,14 +127,17 @@ private:
   void adoptScene(vtkSMProxy* proxy);
   void findScene();
   bool followActiveView();
+  bool look();
   int followSurfaces();
-  void engage(const QString& title, bool anew);
+  void engage(const QString& title, bool anew, bool isDrawn);
   bool hasWork() const;
   void noticeState();
   void proveAsked();
   bool show(pqOutputPort* port, pqView* view, QString& problem);
   void focusView();
+  void bringSurfaces(bool isDrawn);
   void draw();
+  void drawAll(vtkSMViewProxy* view);
 
   vtkWeakPointer<vtkSMProxy> Scene;
   vtkWeakPointer<vtkSMProxy> Begin; // whose changes are followed, see values()

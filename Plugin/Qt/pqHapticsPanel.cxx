@@ -9,9 +9,12 @@
 #include "vtkCommand.h"
 #include "vtkHapticDevice.h"
 #include "vtkHapticLandmarks.h"
+#include "vtkHapticReadings.h"
 #include "vtkHapticScene.h"
 #include "vtkHapticServo.h"
 #include "vtkNew.h"
+#include "vtkPVHapticReadings.h"
+#include "vtkPVHapticRecords.h"
 #include "vtkPVHapticScene.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
@@ -48,7 +51,7 @@ void fixLines(QLabel* label, int lines)
   label->setAlignment(Qt::AlignLeft | Qt::AlignTop);
 }
 
-/// The components of an array with as many digits as fit beside each other.
+/// The components of an array with as many digits as fit next to each other.
 QString shortened(const QString& value)
 {
   QStringList parts = value.split(", ");
@@ -114,7 +117,7 @@ pqHapticsPanel::~pqHapticsPanel() = default;
 void pqHapticsPanel::connectSettings()
 {
   Ui::pqHapticsPanel& form = *this->Form;
-  // activated() and clicked() tell of the user's hand only, not of what this panel shows.
+  // activated() and clicked() report the user's hand only, not of what this panel shows.
   this->connect(
     form.device, QOverload<int>::of(&QComboBox::activated), this, &pqHapticsPanel::chooseDevice);
   this->connect(form.stiffness, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
@@ -141,6 +144,13 @@ void pqHapticsPanel::connectSettings()
   show(form.showForce, "ShowForce");
   show(form.showReadout, "ShowReadout");
   show(form.showTrail, "ShowTrail");
+  show(form.showHand, "ShowHand");
+  this->connect(form.handSize, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
+    [this](double percent)
+    {
+      this->Manager->set("Size of the Hand", "HandSize", percent / 100.0);
+      this->Manager->redraw();
+    });
   this->connect(form.clutch, &QAbstractButton::clicked, this,
     [this](bool on) { this->Manager->set("Haptic Clutch", "Clutched", on); });
   this->connect(
@@ -182,6 +192,7 @@ void pqHapticsPanel::followScene()
     pqCoreUtilities::connect(scene, vtkCommand::PropertyModifiedEvent, this, SLOT(showSettings()));
   }
   this->showSettings();
+  this->LastText.invalidate(); // what the scene before has reported is over
   this->showReadings();
 }
 
@@ -212,7 +223,7 @@ void pqHapticsPanel::chooseDevice(int index)
   }
 }
 
-/// Adds what is plugged in to the chooser, each entry with its state beside it, and shows them.
+/// Adds what is plugged in to the chooser, each entry with its state next to it, and shows them.
 void pqHapticsPanel::findDevices()
 {
   QComboBox* chooser = this->Form->device;
@@ -282,6 +293,9 @@ void pqHapticsPanel::showSettings()
     form.showForce->setChecked(vtkSMPropertyHelper(values, "ShowForce").GetAsInt() != 0);
     form.showReadout->setChecked(vtkSMPropertyHelper(values, "ShowReadout").GetAsInt() != 0);
     form.showTrail->setChecked(vtkSMPropertyHelper(values, "ShowTrail").GetAsInt() != 0);
+    form.showHand->setChecked(vtkSMPropertyHelper(values, "ShowHand").GetAsInt() != 0);
+    const QSignalBlocker size(form.handSize);
+    form.handSize->setValue(100.0 * vtkSMPropertyHelper(values, "HandSize").GetAsDouble());
   }
   this->showRecorder();
 }
@@ -325,8 +339,11 @@ void pqHapticsPanel::showForce()
 {
   QProgressBar* bar = this->Form->force;
   vtkPVHapticScene* scene = this->Manager->clientScene();
-  const double force = scene ? scene->GetForceMagnitude() : 0.0;
-  const double most = scene ? scene->GetScene()->GetServo()->GetEffectiveMaximumForce() : 0.0;
+  const double force = scene ? scene->GetReadings()->GetForceMagnitude() : 0.0;
+  vtkSMProxy* values = this->Manager->values();
+  const double most = scene ? scene->GetScene()->GetServo()->GetEffectiveMaximumForce()
+    : values                ? vtkSMPropertyHelper(values, "MaximumForce").GetAsDouble()
+                            : 0.0;
   const double share = most > 0.0 ? std::min(force / most, 1.0) : 0.0;
   bar->setValue(static_cast<int>(share * bar->maximum()));
   bar->setFormat(number(force, 2) + " N of " + number(most, 1) + " N");
@@ -359,15 +376,16 @@ void pqHapticsPanel::showText()
   form.state->setToolTip(state);
 
   vtkHapticServo* servo = scene->GetScene()->GetServo();
+  vtkHapticReadings* readings = servo->GetReadings();
   const double limit = servo->GetStiffnessLimit();
-  const bool isFelt = scene->GetTouching() && servo->GetCurrentStiffness() > 0.0;
-  const double stiffness = isFelt ? servo->GetCurrentStiffness() : scene->GetEffectiveStiffness();
+  const bool isFelt = scene->GetReadings()->GetTouching() && readings->GetStiffness() > 0.0;
+  const double stiffness = isFelt ? readings->GetStiffness() : servo->GetEffectiveStiffness();
   form.safeStiffness->setText((isFelt ? "in effect here " : "in effect ") + number(stiffness, 0) +
-    " N/m" + (limit < VTK_DOUBLE_MAX ? "; safe up to " + number(limit, 0) + " N/m" : QString()));
+    " N/m" + (limit < VTK_DOUBLE_MAX ? "\nsafe up to " + number(limit, 0) + " N/m" : QString()));
   form.servo->setText(servo->GetNumberOfTicks() == 0 ? QString("not run yet")
-                                                     : number(servo->GetMeasuredRate(), 0) +
-        " Hz, gaps to " + number(1000.0 * servo->GetMaximumPeriod(), 1) + " ms, " +
-        QString::number(servo->GetNumberOfMissedTicks()) + " of " +
+                                                     : number(readings->GetMeasuredRate(), 0) +
+        " Hz, gaps to " + number(1000.0 * readings->GetMaximumPeriod(), 1) + " ms\n" +
+        QString::number(readings->GetNumberOfMissedTicks()) + " of " +
         QString::number(servo->GetNumberOfTicks()) + " missed");
 }
 
@@ -375,14 +393,15 @@ void pqHapticsPanel::showContact()
 {
   Ui::pqHapticsPanel& form = *this->Form;
   vtkPVHapticScene* scene = this->Manager->clientScene();
-  const bool touching = scene && scene->GetTouching();
-  const int landmarks = scene ? scene->GetNumberOfLandmarks() : 0;
-  const QString name = touching ? scene->GetTouchedName() : "";
+  vtkPVHapticReadings* hand = scene ? scene->GetReadings() : nullptr;
+  const bool touching = hand && hand->GetTouching();
+  const int landmarks = scene ? scene->GetRecords()->GetNumberOfLandmarks() : 0;
+  const QString name = touching ? hand->GetTouchedName() : "";
   form.contact->setText(touching
-      ? (name.isEmpty() ? name : name + ", ") + "cell " + QString::number(scene->GetTouchedCell()) +
-        ", " + QString::number(scene->GetPenetration(), 'g', 3) + " world units deep"
+      ? (name.isEmpty() ? name : name + ", ") + "cell " + QString::number(hand->GetTouchedCell()) +
+        ", " + QString::number(hand->GetPenetration(), 'g', 3) + " world units deep"
       : QString("free space"));
-  vtkStringArray* values = touching ? scene->GetProbedValues() : nullptr;
+  vtkStringArray* values = touching ? hand->GetProbedValues() : nullptr;
   const int rows = values ? static_cast<int>(values->GetNumberOfValues() / 2) : 0;
   form.values->setRowCount(rows);
   for (int row = 0; row < rows; ++row)

@@ -1,6 +1,6 @@
 /**
  * @class   pqHapticsPanel
- * @brief   The dock panel of the hand: device, feel, workspace, contact, landmarks, recorder.
+ * @brief   The dock panel of the hand: device, material, workspace, contact, landmarks, recorder.
  *
  * Shows the scene of pqHapticsManager and edits its proxy. Settings follow the proxy wherever they
  * are changed; readings are shown as the manager looks at the scene: the force bar at each look,

@@ -7,6 +7,8 @@
 #include "vtkHapticScene.h"
 #include "vtkHapticView.h"
 #include "vtkNew.h"
+#include "vtkPVHapticPicture.h"
+#include "vtkPVHapticRecords.h"
 #include "vtkPVHapticScene.h"
 #include "vtkPolyData.h"
 #include "vtkSMPropertyHelper.h"
@@ -35,7 +37,7 @@ void pqHapticsPen::begin()
 {
   vtkPVHapticScene* scene = this->Manager->clientScene();
   scene->Update(); // ticks until now are not drawn
-  this->KeepsTrace = !scene->GetRecordTrace();
+  this->KeepsTrace = !scene->GetRecords()->GetRecordTrace();
   if (this->KeepsTrace)
   {
     this->Manager->setForNow("RecordTrace", 1);
@@ -63,6 +65,6 @@ void pqHapticsPen::end()
 
 void pqHapticsPen::showTrail(bool show)
 {
-  this->Manager->clientScene()->SetShowTrail(show);
+  this->Manager->clientScene()->GetPicture()->SetShowTrail(show);
   this->Manager->redraw();
 }

@@ -6,5 +6,5 @@ pqHapticsToolBar::pqHapticsToolBar(QWidget* parent)
   : Superclass("Haptics", parent)
 {
   this->setObjectName("HapticsToolBar");
-  this->addAction(pqHapticsActions::instance()->touch());
+  this->addActions(pqHapticsActions::instance()->ofToolBar());
 }

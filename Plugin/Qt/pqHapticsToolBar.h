@@ -1,6 +1,6 @@
 /**
  * @class   pqHapticsToolBar
- * @brief   One button, Touch: feel the selected sources.
+ * @brief   One button, Touch: makes the selected sources touchable.
  *
  * Pressed, it makes the selected sources touchable in the active view, however they are drawn, and
  * engages the device that was used last, the mouse where there is none. It stays pressed in while

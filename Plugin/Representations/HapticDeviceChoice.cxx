@@ -22,8 +22,10 @@ namespace
 {
 constexpr int StrokeSamples = 400;       // rays cast to find a stroke
 constexpr double StrokeShare = 0.35;     // of the workspace's half extent that a stroke covers
-constexpr double StrokeDepth = 0.006;    // below the surface [m]
+constexpr double StrokeDepth = 0.003;    // below the surface [m]: 1.5 N at 500 N/m
 constexpr double StrokeClearance = 0.02; // above it before and after [m]
+constexpr double StrokeLift = 0.004;     // above it where it would go through something [m]
+constexpr double WallSlope = 2.0;        // that a stroke does not follow
 constexpr double StrokeSpeed = 0.05;     // [m/s], where a path has no times
 constexpr const char* PathFollower = "simulated";
 
@@ -57,7 +59,7 @@ DeviceChoice DeviceChoice::Make(const std::string& name, std::string& error)
   {
     auto recorded = vtkSmartPointer<vtkRecordedHapticDevice>::New();
     recorded->SetFileName(name);
-    if (recorded->Open()) // which tells what it reaches, needed to fit it
+    if (recorded->Open()) // which reports what it reaches, needed to fit it
     {
       choice.Chosen = recorded;
     }
@@ -114,42 +116,68 @@ bool DeviceChoice::MakeStroke(vtkHapticScene* scene)
   const double center[3] = { 0.5 * (bounds[0] + bounds[1]), 0.5 * (bounds[2] + bounds[3]),
     0.5 * (bounds[4] + bounds[5]) };
   double down[4];
-  world(0.0, 0.0, -1.0, 0.0, down);
+  world(0.0, 0.0, -1.0, 0.0, down); // a metre of the device long
+  const double metre = vtkMath::Norm(down);
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
-  double last[4];
+  const auto goTo = [&points, &down](const double hit[3], double below)
+  {
+    points->InsertNextPoint(
+      hit[0] + below * down[0], hit[1] + below * down[1], hit[2] + below * down[2]);
+  };
+  struct Place
+  {
+    double X;
+    double Y;
+    double Hit[3] = { 0.0, 0.0, 0.0 }; ///< on the surface below
+    double Depth = 0.0;                ///< of it, from the front of what the hand reaches [m]
+  };
+  const auto findSurface = [&](Place& place)
+  {
+    double from[4];
+    world(place.X, place.Y, bounds[5], 1.0, from);
+    const bool found = scene->IntersectRay(from, down, place.Hit);
+    place.Depth = std::sqrt(vtkMath::Distance2BetweenPoints(from, place.Hit)) / metre;
+    return found;
+  };
+  const auto isWall = [](const Place& one, const Place& other)
+  {
+    return std::abs(one.Depth - other.Depth) >
+      WallSlope * std::hypot(one.X - other.X, one.Y - other.Y);
+  };
+  Place last{ 0.0, 0.0 };
+  bool isOnSurface = false;
   for (int i = 0; i < StrokeSamples; ++i)
   {
     // A smooth closed curve around the middle of what the hand reaches.
     const double s = 2.0 * vtkMath::Pi() * i / StrokeSamples;
-    const double x = center[0] + StrokeShare * 0.5 * (bounds[1] - bounds[0]) * std::sin(2.0 * s);
-    const double y = center[1] + StrokeShare * 0.5 * (bounds[3] - bounds[2]) * std::cos(3.0 * s);
-    double from[4];
-    world(x, y, bounds[5], 1.0, from);
-    double hit[3];
-    if (scene->IntersectRay(from, down, hit))
+    Place place{ center[0] + StrokeShare * 0.5 * (bounds[1] - bounds[0]) * std::sin(2.0 * s),
+      center[1] + StrokeShare * 0.5 * (bounds[3] - bounds[2]) * std::cos(3.0 * s) };
+    if (!findSurface(place))
     {
-      // `down` is a metre of the device long.
-      double pressed[3];
-      double above[3];
-      for (int j = 0; j < 3; ++j)
-      {
-        pressed[j] = hit[j] + StrokeDepth * down[j];
-        above[j] = hit[j] - StrokeClearance * down[j];
-      }
-      if (points->GetNumberOfPoints() == 0)
-      {
-        points->InsertNextPoint(above);
-      }
-      points->InsertNextPoint(pressed);
-      std::copy(above, above + 3, last);
+      isOnSurface = false;
+      continue;
     }
+    if (points->GetNumberOfPoints() == 0)
+    {
+      goTo(place.Hit, -StrokeClearance);
+    }
+    else if (!isOnSurface || isWall(last, place))
+    {
+      // Straight on, the hand would go through what lies behind.
+      const double top = std::min(place.Depth, last.Depth) - StrokeLift;
+      goTo(last.Hit, top - last.Depth);
+      goTo(place.Hit, top - place.Depth);
+    }
+    goTo(place.Hit, StrokeDepth);
+    last = place;
+    isOnSurface = true;
   }
   if (points->GetNumberOfPoints() == 0)
   {
     return false;
   }
-  points->InsertNextPoint(last);
+  goTo(last.Hit, -StrokeClearance);
   this->Path = Polyline(points, nullptr);
   return true;
 }

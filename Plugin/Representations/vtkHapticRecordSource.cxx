@@ -60,6 +60,7 @@ std::string vtkHapticRecordSource::MakeContents(vtkPolyData* record)
       magnitude->SetValue(i, vtkMath::Norm(force->GetTuple3(i)));
     }
     written->GetPointData()->AddArray(magnitude);
+    written->GetPointData()->SetActiveScalars("ForceMagnitude"); // by which ParaView colours it
   }
   vtkNew<vtkXMLPolyDataWriter> writer;
   writer->SetInputData(written);

@@ -14,4 +14,6 @@ void vtkHapticSettings::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ShowForce: " << this->ShowForce << "\n";
   os << indent << "ShowReadout: " << this->ShowReadout << "\n";
   os << indent << "ShowTrail: " << this->ShowTrail << "\n";
+  os << indent << "ShowHand: " << this->ShowHand << "\n";
+  os << indent << "HandSize: " << this->HandSize << "\n";
 }

@@ -39,13 +39,20 @@ public:
   vtkGetMacro(Side, int);
   ///@}
   ///@{
-  /** What the view shows beside the hand: force (default on), data (off), trail (off). */
+  /** What the view shows in addition to the hand: force (default on), data (off), trail (off). */
   vtkSetMacro(ShowForce, bool);
   vtkGetMacro(ShowForce, bool);
   vtkSetMacro(ShowReadout, bool);
   vtkGetMacro(ShowReadout, bool);
   vtkSetMacro(ShowTrail, bool);
   vtkGetMacro(ShowTrail, bool);
+  ///@}
+  ///@{
+  /** The hand itself: default on, and of 0.012 of the view's height. */
+  vtkSetMacro(ShowHand, bool);
+  vtkGetMacro(ShowHand, bool);
+  vtkSetMacro(HandSize, double);
+  vtkGetMacro(HandSize, double);
   ///@}
 
 protected:
@@ -63,6 +70,8 @@ private:
   bool ShowForce = true;
   bool ShowReadout = false;
   bool ShowTrail = false;
+  bool ShowHand = true;
+  double HandSize = 0.012;
 };
 
 #endif

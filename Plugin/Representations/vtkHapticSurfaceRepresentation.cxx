@@ -1,5 +1,6 @@
 #include "vtkHapticSurfaceRepresentation.h"
 
+#include "ServedSurface.h"
 #include "vtkActor.h"
 #include "vtkAppendPolyData.h"
 #include "vtkCellArray.h"
@@ -7,11 +8,16 @@
 #include "vtkCompositeDataSet.h"
 #include "vtkDataAssembly.h"
 #include "vtkDataAssemblyUtilities.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkGodObjectFilter.h"
+#include "vtkHapticPatchInformation.h"
 #include "vtkHapticProperties.h"
 #include "vtkInformation.h"
 #include "vtkMatrix4x4.h"
+#include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
+#include "vtkPVHapticPatchSource.h"
 #include "vtkPVLODActor.h"
 #include "vtkPVRenderView.h"
 #include "vtkPartitionedDataSetCollection.h"
@@ -23,6 +29,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 vtkStandardNewMacro(vtkHapticSurfaceRepresentation);
 
@@ -71,11 +78,45 @@ vtkSmartPointer<vtkPolyData> Gather(vtkDataObject* data, const std::vector<std::
   return append->GetOutput();
 }
 
+/// Whether a script drives this process and others with it, with no client: pvbatch under MPI.
+bool IsBatchOfSeveral()
+{
+  vtkProcessModule* processes = vtkProcessModule::GetProcessModule();
+  return processes && processes->GetNumberOfLocalPartitions() > 1 &&
+    vtkProcessModule::GetProcessType() == vtkProcessModule::PROCESS_BATCH;
+}
+
 /// Whether this process is alone. A client of a server has no pieces.
 bool HasAllPieces()
 {
   vtkProcessModule* processes = vtkProcessModule::GetProcessModule();
   return processes && processes->GetNumberOfLocalPartitions() == 1;
+}
+
+/// The pieces of all processes where the hand is: in the first, or in each where each runs the
+/// script. ParaView's delivery to clients brings nothing together where there is none.
+vtkSmartPointer<vtkPolyData> Collect(vtkPolyData* piece)
+{
+  vtkProcessModule* processes = vtkProcessModule::GetProcessModule();
+  vtkMultiProcessController* controller = processes->GetGlobalController();
+  std::vector<vtkSmartPointer<vtkDataObject>> pieces;
+  const bool hasWorked = processes->GetSymmetricMPIMode() ? controller->AllGather(piece, pieces)
+                                                          : controller->Gather(piece, pieces, 0);
+  vtkNew<vtkAppendPolyData> append;
+  for (vtkDataObject* received : pieces)
+  {
+    auto* triangles = vtkPolyData::SafeDownCast(received);
+    if (hasWorked && triangles && triangles->GetNumberOfPolys() > 0)
+    {
+      append->AddInputData(triangles);
+    }
+  }
+  if (append->GetNumberOfInputConnections(0) == 0)
+  {
+    return vtkSmartPointer<vtkPolyData>::New();
+  }
+  append->Update();
+  return append->GetOutput();
 }
 
 /// The triangles of the cells that are this process' own.
@@ -101,7 +142,9 @@ vtkSmartPointer<vtkPolyData> Triangulate(vtkPolyData* surface)
 
 vtkHapticSurfaceRepresentation::vtkHapticSurfaceRepresentation()
   : LocalTriangles(vtkSmartPointer<vtkPolyData>::New())
+  , Piece(this->LocalTriangles)
 {
+  this->Patches = vtkSmartPointer<vtkPVHapticPatchSource>::New();
 }
 
 vtkHapticSurfaceRepresentation::~vtkHapticSurfaceRepresentation() = default;
@@ -113,6 +156,22 @@ void vtkHapticSurfaceRepresentation::SetTouchable(bool touchable)
     this->Touchable = touchable;
     this->MarkModified();
   }
+}
+
+void vtkHapticSurfaceRepresentation::SetPatchThreshold(vtkIdType triangles)
+{
+  triangles = std::max(triangles, vtkIdType{ 0 });
+  if (triangles != this->PatchThreshold)
+  {
+    this->PatchThreshold = triangles;
+    this->MarkModified();
+  }
+}
+
+void vtkHapticSurfaceRepresentation::SetPatchRadius(double radius)
+{
+  this->PatchRadius = radius;
+  this->Patches->SetPatchRadius(radius);
 }
 
 void vtkHapticSurfaceRepresentation::SetShown(bool shown)
@@ -135,7 +194,83 @@ int vtkHapticSurfaceRepresentation::RequestData(
   this->ShownBlocks.assign(this->BlockSelectors.begin(), this->BlockSelectors.end());
   vtkSmartPointer<vtkPolyData> surface = Gather(this->GetRenderedDataObject(0), this->ShownBlocks);
   this->LocalTriangles = surface ? Triangulate(surface) : vtkSmartPointer<vtkPolyData>::New();
+  this->Serve();
+  if (IsBatchOfSeveral()) // a touched surface is updated in all at once
+  {
+    this->Receive(this->Served ? this->Piece : Collect(this->LocalTriangles));
+  }
   return 1;
+}
+
+/// Decides whether the triangles are brought to the client, and if not, gets ready to be asked.
+/// All processes do at once.
+void vtkHapticSurfaceRepresentation::Serve()
+{
+  ++this->Version;
+  const haptics::ServedShape touched =
+    this->Served ? this->Served->Touched() : haptics::ServedShape();
+  this->Served.reset();
+  this->Piece = this->LocalTriangles;
+  vtkProcessModule* const processes = vtkProcessModule::GetProcessModule();
+  if (!processes || processes->GetSymmetricMPIMode())
+  {
+    return; // each process has a client of its own, and none can ask the others
+  }
+  vtkMultiProcessController* const controller = processes->GetGlobalController();
+  const vtkIdType all =
+    haptics::ServedSurface::Count(this->LocalTriangles->GetNumberOfPolys(), controller);
+  if (all > this->PatchThreshold)
+  {
+    this->Served = std::make_unique<haptics::ServedSurface>(
+      this->LocalTriangles, this->Version, touched, controller);
+    this->Piece = vtkSmartPointer<vtkPolyData>::New();
+  }
+}
+
+void vtkHapticSurfaceRepresentation::Answer(vtkHapticPatchInformation* question)
+{
+  const bool isFirst =
+    vtkProcessModule::GetProcessModule()->GetGlobalController()->GetLocalProcessId() == 0;
+  if (isFirst)
+  {
+    question->SetHead(
+      this->Served != nullptr, this->Version, this->Served ? this->Served->Error() : "");
+  }
+  if (!this->Served)
+  {
+    return;
+  }
+  using Question = vtkHapticPatchInformation::Question;
+  if (question->GetQuestion() != Question::Whole)
+  {
+    const haptics::PatchRegion region = question->GetRegion();
+    question->SetPart(question->GetQuestion() == Question::Nearest
+        ? this->Served->Nearest(region.From)
+        : this->Served->Crop(region));
+    if (question->GetQuestion() == Question::TouchedRegion)
+    {
+      this->Served->SetTouched();
+    }
+    return;
+  }
+  const vtkSmartPointer<vtkPolyData> sample = this->Served->Sample();
+  if (const haptics::PatchRecord* const whole = this->Served->Whole())
+  {
+    whole->WriteTo(sample->GetFieldData());
+    vtkNew<vtkDoubleArray> box;
+    box->SetName(vtkPVHapticPatchSource::BoxName);
+    box->SetNumberOfComponents(3);
+    box->InsertNextTuple(this->Served->Box().Low.data());
+    box->InsertNextTuple(this->Served->Box().High.data());
+    sample->GetFieldData()->AddArray(box);
+  }
+  question->SetPart(sample);
+}
+
+void vtkHapticSurfaceRepresentation::SetGather(
+  std::function<void(vtkHapticPatchInformation*)> gather)
+{
+  this->Patches->SetGather(std::move(gather));
 }
 
 int vtkHapticSurfaceRepresentation::ProcessViewRequest(
@@ -159,15 +294,15 @@ int vtkHapticSurfaceRepresentation::ProcessViewRequest(
   }
   if (request == vtkPVView::REQUEST_UPDATE())
   {
-    // The size of what is drawn decides where it is drawn; this is not drawn, and counts for 1 KB.
-    vtkPVView::SetPiece(inInfo, this, this->LocalTriangles, 1, HapticPort);
+    const unsigned long kilobytes = std::max(this->Piece->GetActualMemorySize(), 1ul);
+    vtkPVView::SetPiece(inInfo, this, this->Piece, kilobytes, HapticPort);
     vtkPVRenderView::SetDeliverToClientAndRenderingProcesses(inInfo, this, true, true, HapticPort);
     if (!this->WasDelivered && HasAllPieces() && this->LocalTriangles->GetNumberOfPolys() > 0)
     {
-      this->Receive(this->LocalTriangles); // the same that a render brings, which may never come
+      this->Receive(this->Piece); // the same that a render brings, which may never come
     }
   }
-  else if (request == vtkPVView::REQUEST_RENDER())
+  else if (request == vtkPVView::REQUEST_RENDER() && !IsBatchOfSeveral())
   {
     vtkDataObject* delivered = vtkPVView::GetDeliveredPiece(inInfo, this, HapticPort);
     this->WasDelivered = this->WasDelivered || delivered;
@@ -185,34 +320,61 @@ void vtkHapticSurfaceRepresentation::Receive(vtkDataObject* delivered)
   }
   this->Delivered = triangles;
   this->DeliveredTime = triangles->GetMTime();
-  if (!this->Touched)
+  if (!this->TouchActor)
   {
     vtkNew<vtkPolyDataMapper> mapper;
     mapper->SetInputConnection(this->Producer->GetOutputPort());
-    this->Touched = vtkSmartPointer<vtkActor>::New();
-    this->Touched->SetMapper(mapper);
+    this->TouchActor = vtkSmartPointer<vtkActor>::New();
+    this->TouchActor->SetMapper(mapper);
   }
   this->Producer->SetOutput(triangles);
+  this->IsDeliveryNew = true;
+}
+
+/// What the actor shows: all triangles, or, where none were brought, what the processes may give of
+/// them. Not within a render, when the server cannot be asked.
+void vtkHapticSurfaceRepresentation::ConnectTouched()
+{
+  const bool mayBeInPatches = vtkPolyData::SafeDownCast(this->Delivered)->GetNumberOfCells() == 0;
+  if (mayBeInPatches)
+  {
+    this->Patches->SetOutdated();
+  }
+  vtkAlgorithm* const source = mayBeInPatches && this->Patches->IsInPatches()
+    ? static_cast<vtkAlgorithm*>(this->Patches)
+    : static_cast<vtkAlgorithm*>(this->Producer);
+  this->TouchActor->GetMapper()->SetInputConnection(source->GetOutputPort());
+}
+
+vtkPVHapticPatchSource* vtkHapticSurfaceRepresentation::GetPatches()
+{
+  const bool isConnected =
+    this->TouchActor && this->TouchActor->GetMapper()->GetInputAlgorithm() == this->Patches;
+  return isConnected ? this->Patches : nullptr;
 }
 
 vtkActor* vtkHapticSurfaceRepresentation::GetTouchedActor()
 {
-  if (this->Touched)
+  if (std::exchange(this->IsDeliveryNew, false))
+  {
+    this->ConnectTouched();
+  }
+  if (this->TouchActor)
   {
     vtkProp3D* drawn = this->GetActor();
-    vtkMatrix4x4* matrix = this->Touched->GetUserMatrix();
+    vtkMatrix4x4* matrix = this->TouchActor->GetUserMatrix();
     const bool hasMoved = !matrix ||
       !std::equal(matrix->GetData(), matrix->GetData() + 16, drawn->GetMatrix()->GetData());
     if (hasMoved)
     {
       vtkNew<vtkMatrix4x4> moved;
       moved->DeepCopy(drawn->GetMatrix());
-      this->Touched->SetUserMatrix(moved);
+      this->TouchActor->SetUserMatrix(moved);
     }
-    this->Touched->SetVisibility(this->GetVisibility());
-    this->Touched->SetPickable(drawn->GetPickable());
+    this->TouchActor->SetVisibility(this->GetVisibility());
+    this->TouchActor->SetPickable(drawn->GetPickable());
   }
-  return this->Touched;
+  return this->TouchActor;
 }
 
 void vtkHapticSurfaceRepresentation::SetHapticProperties(vtkHapticProperties* properties)
@@ -254,5 +416,7 @@ void vtkHapticSurfaceRepresentation::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Triangles of this process: " << this->LocalTriangles->GetNumberOfPolys() << "\n";
   auto* delivered = vtkPolyData::SafeDownCast(this->Delivered);
+  os << indent << "PatchThreshold: " << this->PatchThreshold << "\n";
+  os << indent << "PatchRadius: " << this->PatchRadius << "\n";
   os << indent << "Triangles to touch: " << (delivered ? delivered->GetNumberOfPolys() : 0) << "\n";
 }

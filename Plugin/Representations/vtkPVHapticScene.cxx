@@ -1,71 +1,142 @@
 #include "vtkPVHapticScene.h"
 
-#include "PVHapticSceneInternals.h"
+#include "HapticDeviceChoice.h"
+#include "RepresentedSurfaces.h"
+#include "haptics/Servo/SafetySettings.h"
+#include "vtkCamera.h"
 #include "vtkCommand.h"
 #include "vtkHapticGrip.h"
-#include "vtkHapticOverlay.h"
+#include "vtkHapticReadings.h"
+#include "vtkHapticScene.h"
 #include "vtkHapticServo.h"
-#include "vtkMapper.h"
+#include "vtkHapticSurfaces.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPVHapticPicture.h"
+#include "vtkPVHapticReadings.h"
+#include "vtkPVHapticRecords.h"
+#include "vtkPVHapticWorkspace.h"
+#include "vtkPVRenderView.h"
 #include "vtkPolyData.h"
 #include "vtkRenderWindow.h"
+#include "vtkSmartPointer.h"
+#include "vtkWeakPointer.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <set>
+#include <initializer_list>
+#include <memory>
+#include <string>
 #include <vector>
+
+class vtkPVHapticScene::Internals
+{
+public:
+  vtkNew<vtkHapticScene> Scene;
+  vtkSmartPointer<vtkPVHapticPicture> Picture;
+  vtkSmartPointer<vtkPVHapticReadings> Readings;
+  vtkSmartPointer<vtkPVHapticRecords> Records;
+  vtkSmartPointer<vtkPVHapticWorkspace> Workspace;
+  vtkWeakPointer<vtkPVRenderView> View;
+  unsigned long ViewObserver = 0;
+  haptics::RepresentedSurfaces Surfaces{ Scene };
+  std::string DeviceName = "mouse";
+  haptics::DeviceChoice Choice;
+  vtkTimeStamp PathTime; // when the device got its path, for the workspace transform of then
+  bool Wanted = false;   // engaged, or about to be when the device is ready
+  std::string Message;
+  /// What Message is about, and is mended by: it goes then.
+  enum class Topic
+  {
+    Other,
+    BadSurface, ///< one that cannot be touched
+    Choice,     ///< which surfaces are to be touched
+    View
+  };
+  Topic MessageTopic = Topic::Other;
+  void EndMessageOf(Topic topic)
+  {
+    if (this->MessageTopic == topic)
+    {
+      this->MessageTopic = Topic::Other;
+      this->Message.clear();
+    }
+  }
+  std::string ReleasedBecause; // by what the user did with sources and views
+  bool HasTouched = false;     // the hint is not needed any more
+  std::string State;
+  std::string ShownState;
+
+  /// Whether the hand is ahead of what is here of a surface in patches.
+  bool AwaitsData() const
+  {
+    const int limits = this->Scene->GetServo()->GetReadings()->GetForceLimits();
+    return (limits & haptics::DataAwaited) != 0;
+  }
+  /// Whether there is a hand, in virtual time too.
+  bool HasHand() const
+  {
+    const int state = this->Scene->GetServo()->GetState();
+    return state == vtkHapticServo::Running || state == vtkHapticServo::Stepping;
+  }
+
+  /// Puts a part in the place of another one; what it cannot do is the scene's message.
+  template <class Part>
+  void Exchange(vtkSmartPointer<Part>& place, Part* part, vtkPVHapticScene* self)
+  {
+    if (part && part != place)
+    {
+      if (place)
+      {
+        place->SetScene(nullptr, nullptr);
+      }
+      place = part;
+      part->SetScene(this->Scene, &this->Surfaces);
+      part->AddObserver(vtkPVHapticPart::FailEvent, self, &vtkPVHapticScene::OnPartFailed);
+    }
+  }
+};
 
 vtkStandardNewMacro(vtkPVHapticScene);
 
 namespace
 {
 constexpr const char* MouseHint = "Move the mouse over the surface.\n"
-                                  "Hold the space bar to press; move to stroke.\n"
-                                  "The wheel sets how deep; with Ctrl it zooms. Drag to turn.";
-
-/// How far apart two processes may place the same point [world unit]: some units of the last place
-/// of the precision that points are stored in. The last such width where that will still do: with
-/// another one a surface whose points move would be built anew instead of deformed.
-double SeamWidth(vtkDataSet* data, double last)
-{
-  auto* surface = vtkPolyData::SafeDownCast(data);
-  if (!surface || !surface->GetPoints())
-  {
-    return 0.0;
-  }
-  double bounds[6];
-  surface->GetBounds(bounds);
-  const double largest = *std::max_element(
-    bounds, bounds + 6, [](double a, double b) { return std::abs(a) < std::abs(b); });
-  const bool isFloat = surface->GetPoints()->GetDataType() == VTK_FLOAT;
-  const double least = 4.0 * std::abs(largest) *
-    (isFloat ? std::numeric_limits<float>::epsilon() : std::numeric_limits<double>::epsilon());
-  return last >= least && last <= 4.0 * least ? last : 2.0 * least;
-}
+                                  "Hold the space bar to press,\n"
+                                  "and move to stroke.\n"
+                                  "The wheel sets how deep;\n"
+                                  "with Ctrl it zooms. Drag to turn.";
 }
 
 vtkPVHapticScene::vtkPVHapticScene()
   : Internal(std::make_unique<Internals>())
 {
-  this->Internal->Scene->GetServo()->SetMaximumForce(this->Internal->MaximumForce);
-  this->Internal->Scene->BackgroundBuildingOn();
+  this->Internal->Scene->GetServo()->SetMaximumForce(3.3);
+  this->Internal->Scene->GetSurfaces()->BackgroundBuildingOn();
   // What is touched is an actor in no renderer: carried, it would leave the picture and the server.
   this->Internal->Scene->GetGrip()->SetButton(-1);
   this->Internal->Scene->AddObserver(
     vtkHapticScene::SurfaceErrorEvent, this, &vtkPVHapticScene::OnSurfaceError);
+  this->SetPicture(vtkNew<vtkPVHapticPicture>());
+  this->SetReadings(vtkNew<vtkPVHapticReadings>());
+  this->SetRecords(vtkNew<vtkPVHapticRecords>());
+  this->SetWorkspace(vtkNew<vtkPVHapticWorkspace>());
 }
 
 vtkPVHapticScene::~vtkPVHapticScene()
 {
   this->SetEngaged(false);
   this->SetView(nullptr);
+  for (vtkPVHapticPart* part : std::initializer_list<vtkPVHapticPart*>{
+         this->GetPicture(), this->GetReadings(), this->GetRecords(), this->GetWorkspace() })
+  {
+    part->SetScene(nullptr, nullptr);
+  }
 }
 
 void vtkPVHapticScene::Fail(const std::string& message)
 {
   this->Internal->Message = message;
-  this->Internal->MessageIsOfSurface = false;
+  this->Internal->MessageTopic = Internals::Topic::Other;
   vtkErrorMacro(<< message);
 }
 
@@ -79,7 +150,7 @@ void vtkPVHapticScene::FailWithoutSurface(const std::string& message)
     return;
   }
   this->Internal->Message = cause;
-  this->Internal->MessageIsOfSurface = true;
+  this->Internal->MessageTopic = Internals::Topic::BadSurface;
 }
 
 vtkHapticScene* vtkPVHapticScene::GetScene()
@@ -87,9 +158,49 @@ vtkHapticScene* vtkPVHapticScene::GetScene()
   return this->Internal->Scene;
 }
 
-vtkHapticView* vtkPVHapticScene::GetPicture()
+void vtkPVHapticScene::SetPicture(vtkPVHapticPicture* picture)
+{
+  this->Internal->Exchange(this->Internal->Picture, picture, this);
+}
+
+vtkPVHapticPicture* vtkPVHapticScene::GetPicture()
 {
   return this->Internal->Picture;
+}
+
+void vtkPVHapticScene::SetReadings(vtkPVHapticReadings* readings)
+{
+  this->Internal->Exchange(this->Internal->Readings, readings, this);
+}
+
+vtkPVHapticReadings* vtkPVHapticScene::GetReadings()
+{
+  return this->Internal->Readings;
+}
+
+void vtkPVHapticScene::SetRecords(vtkPVHapticRecords* records)
+{
+  this->Internal->Exchange(this->Internal->Records, records, this);
+}
+
+vtkPVHapticRecords* vtkPVHapticScene::GetRecords()
+{
+  return this->Internal->Records;
+}
+
+void vtkPVHapticScene::SetWorkspace(vtkPVHapticWorkspace* workspace)
+{
+  this->Internal->Exchange(this->Internal->Workspace, workspace, this);
+}
+
+vtkPVHapticWorkspace* vtkPVHapticScene::GetWorkspace()
+{
+  return this->Internal->Workspace;
+}
+
+void vtkPVHapticScene::OnPartFailed(vtkObject*, unsigned long, void* message)
+{
+  this->Internal->Message = static_cast<const char*>(message); // it has been reported
 }
 
 //--- view -----------------------------------------------------------------------------------------
@@ -106,6 +217,11 @@ void vtkPVHapticScene::SetView(vtkObject* object)
   {
     this->Fail("A view of the kind " + std::string(object->GetClassName()) +
       " cannot be touched. Activate a render view.");
+    this->Internal->MessageTopic = Internals::Topic::View;
+  }
+  else
+  {
+    this->Internal->EndMessageOf(Internals::Topic::View);
   }
   Internals& self = *this->Internal;
   if (view == self.View && view)
@@ -122,39 +238,27 @@ void vtkPVHapticScene::SetView(vtkObject* object)
   }
   if (self.View)
   {
-    self.Show(nullptr);
-    if (self.OverlayRenderer)
-    {
-      self.OverlayRenderer->RemoveViewProp(self.Picture->GetOverlay());
-    }
-    self.View->GetRenderWindow()->RemoveObserver(self.ViewObservers.at(0));
-    self.View->RemoveObserver(self.ViewObservers.at(1));
-    self.ViewObservers.clear();
+    self.View->RemoveObserver(self.ViewObserver);
   }
   self.View = view;
+  self.Picture->SetView(view);
   if (vtkHapticDevice* device = self.Scene->GetDevice())
   {
     device->ConnectView(view ? view->GetInteractor() : nullptr, self.Scene);
   }
-  self.Fitted = false; // another view looks elsewhere
+  self.Workspace->Forget(); // another view looks elsewhere
   if (view)
   {
-    self.OverlayRenderer = view->GetNonCompositedRenderer();
-    self.OverlayRenderer->AddViewProp(self.Picture->GetOverlay());
-    self.Show(view->GetRenderer());
     this->ShowHand();
-    self.ViewObservers = { view->GetRenderWindow()->AddObserver(
-                             vtkCommand::StartEvent, &self, &Internals::OnRender),
-      view->AddObserver(vtkCommand::DeleteEvent, this, &vtkPVHapticScene::OnViewDeleted) };
+    self.ViewObserver =
+      view->AddObserver(vtkCommand::DeleteEvent, this, &vtkPVHapticScene::OnViewDeleted);
   }
   this->Modified();
 }
 
 void vtkPVHapticScene::OnViewDeleted()
 {
-  // Its window and renderers go with it, and our props in them.
   this->Internal->View = nullptr;
-  this->Internal->ViewObservers.clear();
   this->ReleaseBecause("the view was closed");
 }
 
@@ -162,120 +266,49 @@ void vtkPVHapticScene::OnViewDeleted()
 
 void vtkPVHapticScene::AddSurface(vtkObject* representation)
 {
-  if (!vtkCompositeRepresentation::SafeDownCast(representation) &&
-    !vtkHapticSurfaceRepresentation::SafeDownCast(representation))
+  if (!this->Internal->Surfaces.Add(representation))
   {
     this->Fail(std::string(representation ? representation->GetClassName() : "Nothing") +
       " has no surface to touch. Give a representation of a render view.");
+    this->Internal->MessageTopic = Internals::Topic::Choice;
     return;
   }
-  Internals::Surface surface;
-  surface.Representation = representation;
-  this->Internal->Surfaces.push_back(surface);
+  this->Internal->EndMessageOf(Internals::Topic::Choice);
   this->Modified();
 }
 
 void vtkPVHapticScene::SetSurfaceSource(
-  vtkObject* representation, const std::string& name, vtkHapticSurfaceRepresentation* beside)
+  vtkObject* representation, const std::string& name, vtkHapticSurfaceRepresentation* source)
 {
-  for (Internals::Surface& surface : this->Internal->Surfaces)
-  {
-    if (surface.Representation == representation)
-    {
-      surface.Name = name;
-      surface.Beside = beside;
-      this->Internal->Scene->SetSurfaceName(surface.Id, name.c_str());
-    }
-  }
+  this->Internal->Surfaces.SetSource(representation, name, source);
 }
 
 void vtkPVHapticScene::RemoveAllSurfaces()
 {
-  this->Internal->Surfaces.clear();
+  this->Internal->Surfaces.Clear();
   this->Modified();
-}
-
-void vtkPVHapticScene::SyncSurfaces()
-{
-  Internals& self = *this->Internal;
-  self.Surfaces.erase(std::remove_if(self.Surfaces.begin(), self.Surfaces.end(),
-                        [](const Internals::Surface& s) { return !s.Representation; }),
-    self.Surfaces.end());
-  std::set<vtkActor*> wanted;
-  for (Internals::Surface& surface : self.Surfaces)
-  {
-    vtkHapticSurfaceRepresentation* representation = Internals::Touched(surface);
-    surface.Actor = representation ? representation->GetTouchedActor() : nullptr;
-    surface.Id = -1;
-    if (surface.Actor)
-    {
-      wanted.insert(surface.Actor);
-      surface.Id = self.Scene->AddSurface(surface.Actor);
-      self.Scene->SetSurfaceName(surface.Id, surface.Name.c_str());
-      vtkGodObjectFilter* filter = self.Scene->GetSurfaceFilter(surface.Id);
-      filter->SetSide(self.Side);
-      representation->Configure(filter);
-      filter->SetMergeToleranceIsAbsolute(true);
-      vtkDataSet* data = surface.Actor->GetMapper()->GetInput();
-      filter->SetMergeTolerance(self.InPieces ? SeamWidth(data, filter->GetMergeTolerance()) : 0.0);
-    }
-  }
-  for (int i = self.Scene->GetNumberOfSurfaces() - 1; i >= 0; --i)
-  {
-    const int id = self.Scene->GetSurfaceId(i);
-    if (wanted.count(self.Scene->GetSurfaceActor(id)) == 0)
-    {
-      self.Scene->RemoveSurface(id);
-    }
-  }
 }
 
 int vtkPVHapticScene::GetNumberOfTouchableSurfaces()
 {
-  int touchable = 0;
-  for (const Internals::Surface& surface : this->Internal->Surfaces)
-  {
-    touchable += this->Internal->Scene->IsSurfaceTouchable(surface.Id) ? 1 : 0;
-  }
-  return touchable;
-}
-
-/// Whether one that is shown cannot be touched, or not as it is shown. One that is being built may
-/// be.
-bool vtkPVHapticScene::HasBadSurface()
-{
-  vtkHapticScene* scene = this->Internal->Scene;
-  const std::vector<Internals::Surface>& surfaces = this->Internal->Surfaces;
-  return scene->IsBuilding() ||
-    std::any_of(surfaces.begin(), surfaces.end(),
-      [scene](const Internals::Surface& surface)
-      {
-        return surface.Actor && surface.Actor->GetVisibility() &&
-          (!scene->IsSurfaceTouchable(surface.Id) || scene->IsSurfaceOutdated(surface.Id));
-      });
+  return this->Internal->Surfaces.NumberOfTouchable();
 }
 
 void vtkPVHapticScene::OnSurfaceError()
 {
   this->Internal->Message = this->Internal->Scene->GetErrorMessage(); // it has reported it itself
-  this->Internal->MessageIsOfSurface = true;
+  this->Internal->MessageTopic = Internals::Topic::BadSurface;
 }
 
 void vtkPVHapticScene::SetInPieces(bool inPieces)
 {
-  this->Internal->InPieces = inPieces;
+  this->Internal->Surfaces.SetInPieces(inPieces);
 }
 
 void vtkPVHapticScene::SetSide(int side)
 {
-  this->Internal->Side = std::clamp(
-    side, static_cast<int>(vtkGodObjectFilter::FRONT), +vtkGodObjectFilter::AUTOMATIC_SIDE);
+  this->Internal->Surfaces.SetSide(side);
   this->Modified();
-}
-
-int vtkPVHapticScene::GetSide()
-{
-  return this->Internal->Side;
 }
 
 //--- device ---------------------------------------------------------------------------------------
@@ -289,15 +322,10 @@ void vtkPVHapticScene::SetDeviceName(const char* name)
     this->Internal->Scene->SetDevice(nullptr);
     this->Internal->Choice = haptics::DeviceChoice();
     this->Internal->DeviceName = wanted;
-    this->Internal->Fitted = false; // another device reaches elsewhere
+    this->Internal->Workspace->Forget(); // another device reaches elsewhere
     this->Internal->Message.clear();
     this->Modified();
   }
-}
-
-const char* vtkPVHapticScene::GetDeviceName()
-{
-  return this->Internal->DeviceName.c_str();
 }
 
 bool vtkPVHapticScene::ChooseDevice()
@@ -315,7 +343,7 @@ bool vtkPVHapticScene::ChooseDevice()
     return false;
   }
   self.Scene->SetDevice(self.Choice.Device());
-  self.PathIsKnown = false;
+  self.PathTime = vtkTimeStamp();
   self.Choice.Device()->ConnectView(self.View ? self.View->GetInteractor() : nullptr, self.Scene);
   return true;
 }
@@ -326,20 +354,22 @@ bool vtkPVHapticScene::Prepare()
   if (!self.View)
   {
     this->Fail("There is no render view to touch in. Activate one.");
+    self.MessageTopic = Internals::Topic::View;
     return false;
   }
-  if (self.Surfaces.empty())
+  if (self.Surfaces.Size() == 0)
   {
     this->Fail("There is nothing to touch. Select a source and press Touch.");
+    self.MessageTopic = Internals::Topic::Choice;
     return false;
   }
-  return this->ChooseDevice() && (self.Fitted || this->Fit()) && this->ChoosePath();
+  return this->ChooseDevice() && (self.Workspace->GetChosen() || this->Fit()) && this->ChoosePath();
 }
 
 bool vtkPVHapticScene::ChoosePath()
 {
   Internals& self = *this->Internal;
-  if (self.PathIsKnown)
+  if (self.PathTime.GetMTime() > self.Workspace->GetChosenTime())
   {
     return true;
   }
@@ -351,7 +381,7 @@ bool vtkPVHapticScene::ChoosePath()
   }
   self.Scene->GetServo()->Stop(); // in virtual time too: the device is opened anew
   self.Choice.FollowPath(self.Scene->GetWorkspaceTransform());
-  self.PathIsKnown = true;
+  self.PathTime.Modified();
   return true;
 }
 
@@ -371,7 +401,7 @@ void vtkPVHapticScene::SetEngaged(bool engaged)
   }
   self.Message.clear();
   self.ReleasedBecause.clear();
-  this->SyncSurfaces();
+  this->Internal->Surfaces.Sync();
   if (!this->ChooseDevice())
   {
     return;
@@ -402,13 +432,13 @@ bool vtkPVHapticScene::HasToWait()
 {
   Internals& self = *this->Internal;
   const bool isLed = !self.Choice.Strokes() && !self.Choice.WorldPath();
-  return !isLed && self.Scene->IsBuilding() &&
-    this->GetNumberOfTouchableSurfaces() < static_cast<int>(self.Surfaces.size());
+  return !isLed && self.Scene->GetSurfaces()->IsBuilding() &&
+    this->GetNumberOfTouchableSurfaces() < self.Surfaces.Size();
 }
 
 void vtkPVHapticScene::ReleaseBecause(const std::string& reason)
 {
-  if (this->Internal->Wanted || this->Internal->Scene->IsEngaged())
+  if (this->Internal->Wanted || this->Internal->HasHand())
   {
     this->SetEngaged(false);
     this->Internal->ReleasedBecause = reason;
@@ -426,26 +456,22 @@ void vtkPVHapticScene::SetStiffness(double stiffness)
   this->Modified();
 }
 
-double vtkPVHapticScene::GetStiffness()
-{
-  return this->Internal->Scene->GetStiffness();
-}
-
-double vtkPVHapticScene::GetEffectiveStiffness()
-{
-  return this->Internal->Scene->GetServo()->GetEffectiveStiffness();
-}
-
 void vtkPVHapticScene::SetMaximumForce(double force)
 {
   this->Internal->Scene->GetServo()->SetMaximumForce(force);
-  this->Internal->MaximumForce = this->Internal->Scene->GetServo()->GetMaximumForce();
   this->Modified();
 }
 
-double vtkPVHapticScene::GetMaximumForce()
+void vtkPVHapticScene::SetSubstepLimit(int limit)
 {
-  return this->Internal->MaximumForce;
+  this->Internal->Scene->GetServo()->SetSubstepLimit(limit);
+  this->Modified();
+}
+
+void vtkPVHapticScene::SetTipRadius(double radius)
+{
+  this->Internal->Scene->SetTipRadius(radius);
+  this->Modified();
 }
 
 //--- running --------------------------------------------------------------------------------------
@@ -453,17 +479,16 @@ double vtkPVHapticScene::GetMaximumForce()
 bool vtkPVHapticScene::Update()
 {
   Internals& self = *this->Internal;
-  this->SyncSurfaces();
-  if (self.Surfaces.empty())
+  this->Internal->Surfaces.Sync();
+  if (self.Surfaces.Size() == 0)
   {
     this->ReleaseBecause("nothing is left to touch");
   }
   const bool wasEngaged = self.Scene->IsEngaged();
   bool changed = self.Scene->Update();
-  if (self.MessageIsOfSurface && !this->HasBadSurface())
+  if (self.MessageTopic == Internals::Topic::BadSurface && !self.Surfaces.HasBad())
   {
-    self.MessageIsOfSurface = false;
-    self.Message.clear(); // the fault is mended, or its surface gone
+    self.EndMessageOf(Internals::Topic::BadSurface); // the fault is mended, or its surface gone
   }
   if (wasEngaged && !self.Scene->IsEngaged())
   {
@@ -483,34 +508,29 @@ bool vtkPVHapticScene::Update()
     changed = true;
   }
   this->ShowHand();
-  self.MustRender = self.MustRender || changed;
-  return self.MustRender;
+  if (changed)
+  {
+    self.Picture->SetOutdated();
+  }
+  return self.Picture->IsAnyOutdated();
 }
 
-/// Hand and force are in the picture as long as a hand is there, and what it left stays.
+/// Hand and force are in the pictures as long as a hand is there, and what it left stays.
 void vtkPVHapticScene::ShowHand()
 {
   Internals& self = *this->Internal;
-  if (!self.View)
-  {
-    return;
-  }
-  const int state = self.Scene->GetServo()->GetState();
-  const bool isThere = state == vtkHapticServo::Running || state == vtkHapticServo::Stepping;
-  vtkHapticOverlay* overlay = self.Picture->GetOverlay();
+  const bool isThere = self.HasHand();
   self.HasTouched = self.HasTouched || self.Scene->GetTouching();
   vtkHapticDevice* device = self.Scene->GetDevice();
-  overlay->SetHint(device && device->UsesView() && !self.HasTouched ? MouseHint : "");
+  const bool isLed = device && device->UsesView();
   const std::string what = self.Scene->IsEngaged() || self.Wanted ? this->GetState() : "";
   const std::string engaged = "Engaged, ";
-  overlay->SetStatus(what.rfind(engaged, 0) == 0 ? what.substr(engaged.size()) : what);
-  const bool isShown = isThere || self.Wanted;
-  if (isShown != (overlay->GetVisibility() != 0))
-  {
-    overlay->SetVisibility(isShown);
-    self.MustRender = true;
-  }
-  self.Picture->GetGodObjectActor()->SetShowHand(isThere);
+  vtkPVHapticPicture::Hand hand;
+  hand.IsThere = isThere;
+  hand.IsShown = isThere || self.Wanted;
+  hand.Status = what.rfind(engaged, 0) == 0 ? what.substr(engaged.size()) : what;
+  hand.Hint = isLed && !self.HasTouched ? MouseHint : "";
+  self.Picture->Show(hand);
 }
 
 void vtkPVHapticScene::EngageWhenReady()
@@ -535,13 +555,117 @@ void vtkPVHapticScene::Step(int ticks)
   vtkHapticScene* scene = this->Internal->Scene;
   this->Internal->Message.clear();
   this->Internal->ReleasedBecause.clear();
-  this->SyncSurfaces();
-  scene->BackgroundBuildingOff(); // virtual time waits for what is to be touched
+  this->Internal->Surfaces.Sync();
+  scene->GetSurfaces()->BackgroundBuildingOff(); // virtual time waits for what is to be touched
   scene->Update();
   if (this->Prepare() && scene->Step(ticks) < std::max(ticks, 1))
   {
     this->Internal->Message = scene->GetErrorMessage();
   }
-  scene->BackgroundBuildingOn();
+  scene->GetSurfaces()->BackgroundBuildingOn();
   this->ShowHand();
+}
+
+bool vtkPVHapticScene::Fit()
+{
+  Internals& self = *this->Internal;
+  if (!self.View)
+  {
+    this->Fail("There is no render view to fit the device's workspace to. Activate one.");
+    self.MessageTopic = Internals::Topic::View;
+    return false;
+  }
+  if (!this->ChooseDevice())
+  {
+    return false;
+  }
+  this->Internal->Surfaces.Sync();
+  vtkBoundingBox box = self.Surfaces.Bounds();
+  vtkPolyData* path = self.Choice.WorldPath();
+  if (path && !self.Choice.Strokes())
+  {
+    box.SetBounds(path->GetBounds());
+  }
+  if (!box.IsValid())
+  {
+    this->Fail(
+      "The device's workspace fits nothing: what is to be touched is hidden, or has no surface: no "
+      "faces. Touch a source with a surface, and render.");
+    self.MessageTopic = Internals::Topic::Choice;
+    return false;
+  }
+  double bounds[6];
+  box.GetBounds(bounds);
+  return self.Workspace->Fit(bounds, self.View->GetActiveCamera());
+}
+
+//--- the state ------------------------------------------------------------------------------------
+
+const char* vtkPVHapticScene::GetState()
+{
+  Internals& self = *this->Internal;
+  vtkHapticScene* scene = self.Scene;
+  const char* waits = scene->GetDevice() ? scene->GetDevice()->GetStatusMessage() : "";
+  if ((scene->IsEngaged() || self.Wanted) && scene->GetSurfaces()->IsBuilding() &&
+    !scene->GetTouching() && !self.Surfaces.AreInPatches())
+  {
+    const double progress = scene->GetSurfaces()->GetBuildProgress();
+    self.State =
+      "Preparing the surfaces, " + std::to_string(static_cast<int>(100.0 * progress)) + " %";
+  }
+  else if (scene->IsEngaged())
+  {
+    self.State = scene->GetClutched() ? "Engaged, clutched: nothing is touched"
+      : self.AwaitsData()             ? "Engaged, waiting for data"
+      : !self.Surfaces.IsAnyShown()   ? "Engaged, waiting: nothing that can be touched is shown"
+      : scene->GetTouching() ? "Engaged, touching " + std::string(self.Readings->GetTouchedName())
+      : *waits               ? std::string("Engaged, ") + waits
+                             : "Engaged, in free space";
+  }
+  else if (self.Wanted)
+  {
+    self.State = waits;
+  }
+  else
+  {
+    const std::string& why = self.Message.empty() ? self.ReleasedBecause : self.Message;
+    self.State = why.empty() ? "Released" : "Released: " + why;
+  }
+  if (!self.State.empty() && self.State.back() == ' ')
+  {
+    self.State.pop_back(); // without a name
+  }
+  return self.State.c_str();
+}
+
+bool vtkPVHapticScene::GetBuilding()
+{
+  return this->Internal->Scene->GetSurfaces()->IsBuilding();
+}
+
+double vtkPVHapticScene::GetBuildProgress()
+{
+  return this->Internal->Scene->GetSurfaces()->GetBuildProgress();
+}
+
+void vtkPVHapticScene::CancelBuild()
+{
+  this->Internal->Scene->GetSurfaces()->CancelBuild();
+}
+
+const char* vtkPVHapticScene::GetMessage()
+{
+  return this->Internal->Message.c_str();
+}
+
+void vtkPVHapticScene::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "View: " << this->Internal->View.Get() << "\n";
+  os << indent << "Surfaces: " << this->Internal->Surfaces.Size() << "\n";
+  os << indent << "DeviceName: " << this->Internal->DeviceName << "\n";
+  os << indent << "State: " << this->GetState() << "\n";
+  os << indent << "Message: " << this->Internal->Message << "\n";
+  os << indent << "Scene:\n";
+  this->Internal->Scene->PrintSelf(os, indent.GetNextIndent());
 }

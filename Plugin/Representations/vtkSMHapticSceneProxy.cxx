@@ -1,9 +1,13 @@
 #include "vtkSMHapticSceneProxy.h"
 
+#include "PythonStates.h"
+#include "vtkCollection.h"
 #include "vtkCommand.h"
 #include "vtkHapticSurfaceRepresentation.h"
 #include "vtkObjectFactory.h"
+#include "vtkPVHapticPicture.h"
 #include "vtkPVHapticScene.h"
+#include "vtkPVHapticWorkspace.h"
 #include "vtkPVSession.h"
 #include "vtkPVXMLElement.h"
 #include "vtkSMDoubleVectorProperty.h"
@@ -16,6 +20,11 @@
 #include "vtkSMSessionProxyManager.h"
 #include "vtkSMStringVectorProperty.h"
 #include "vtkSMTrace.h"
+#include "vtkSMViewProxy.h"
+#include "vtkSmartPointer.h"
+
+#include <algorithm>
+#include <utility>
 
 vtkStandardNewMacro(vtkSMHapticSceneProxy);
 
@@ -23,7 +32,7 @@ namespace
 {
 /// The properties that vtkHapticSettings has too.
 constexpr const char* SettingNames[] = { "Device", "Stiffness", "MaximumForce", "Side", "ShowForce",
-  "ShowReadout", "ShowTrail" };
+  "ShowReadout", "ShowTrail", "ShowHand", "HandSize" };
 }
 
 vtkSMHapticSceneProxy::vtkSMHapticSceneProxy()
@@ -46,6 +55,7 @@ void vtkSMHapticSceneProxy::CreateVTKObjects()
   this->Superclass::CreateVTKObjects();
   if (first && this->ObjectsCreated)
   {
+    haptics::ExtendPython();
     this->GetScene()->SetInPieces(
       this->GetSession()->GetNumberOfProcesses(vtkPVSession::DATA_SERVER) > 1);
     // VTK drops these observers when this object goes.
@@ -53,6 +63,12 @@ void vtkSMHapticSceneProxy::CreateVTKObjects()
       vtkCommand::UnRegisterEvent, this, &vtkSMHapticSceneProxy::OnUnregistered);
     this->GetSessionProxyManager()->AddObserver(
       vtkCommand::RegisterEvent, this, &vtkSMHapticSceneProxy::OnRegistered);
+    auto views = vtkSmartPointer<vtkCollection>::New();
+    this->GetSessionProxyManager()->GetProxies("views", views);
+    for (int i = 0; i < views->GetNumberOfItems(); ++i)
+    {
+      this->FollowView(vtkSMProxy::SafeDownCast(views->GetItemAsObject(i)));
+    }
     this->GetSession()->AddObserver(
       vtkPVSessionBase::ConnectionLost, this, &vtkSMHapticSceneProxy::OnConnectionLost);
   }
@@ -79,6 +95,68 @@ void vtkSMHapticSceneProxy::OnUnregistered(vtkObject*, unsigned long, void* info
     this->Untraced.clear(); // replaying the deletion does the same
     this->Superclass::UpdateVTKObjects();
     this->GetScene()->Update(); // the force goes now, not when somebody asks next
+  }
+}
+
+void vtkSMHapticSceneProxy::FollowView(vtkSMProxy* proxy)
+{
+  const bool isFollowed = std::find(this->Views.begin(), this->Views.end(), proxy) != Views.end();
+  if (vtkSMViewProxy::SafeDownCast(proxy) && !isFollowed)
+  {
+    this->Views.emplace_back(proxy);
+    proxy->AddObserver(vtkCommand::StartEvent, this, &vtkSMHapticSceneProxy::OnViewStart);
+  }
+}
+
+/// Before a view is rendered, by whomever: also for a screenshot, or a frame of an animation.
+void vtkSMHapticSceneProxy::OnViewStart(vtkObject* caller, unsigned long, void*)
+{
+  vtkPVHapticScene* scene = this->GetScene();
+  if (scene && scene->GetEngaged())
+  {
+    scene->Update();
+  }
+  this->ShowHandIn(vtkSMProxy::SafeDownCast(caller));
+}
+
+void vtkSMHapticSceneProxy::ShowHandIn(vtkSMProxy* view)
+{
+  vtkPVHapticScene* const scene = this->GetScene();
+  vtkSMProperty* const property = view ? view->GetProperty("Representations") : nullptr;
+  if (!scene || !property)
+  {
+    return;
+  }
+  const auto inputOf = [](vtkSMProxy* representation)
+  {
+    vtkSMProperty* const input = representation ? representation->GetProperty("Input") : nullptr;
+    return input ? std::make_pair(vtkSMPropertyHelper(input).GetAsProxy(),
+                     vtkSMPropertyHelper(input).GetOutputPort())
+                 : std::make_pair(static_cast<vtkSMProxy*>(nullptr), 0u);
+  };
+  std::set<std::pair<vtkSMProxy*, unsigned int>> touched;
+  vtkSMPropertyHelper surfaces(this, "Surfaces");
+  for (unsigned int i = 0; i < surfaces.GetNumberOfElements(); ++i)
+  {
+    touched.insert(inputOf(surfaces.GetAsProxy(i)));
+  }
+  touched.erase({ nullptr, 0u });
+  bool isShown = false;
+  vtkSMPropertyHelper shown(property);
+  for (unsigned int i = 0; i < shown.GetNumberOfElements() && !isShown; ++i)
+  {
+    vtkSMProxy* const representation = shown.GetAsProxy(i);
+    isShown = touched.count(inputOf(representation)) > 0 &&
+      vtkSMPropertyHelper(representation, "Visibility", true).GetAsInt() != 0;
+  }
+  scene->GetPicture()->ShowIn(vtkObject::SafeDownCast(view->GetClientSideObject()), isShown);
+}
+
+void vtkSMHapticSceneProxy::ShowHand()
+{
+  for (const vtkWeakPointer<vtkSMProxy>& view : this->Views)
+  {
+    this->ShowHandIn(view);
   }
 }
 
@@ -111,6 +189,7 @@ void vtkSMHapticSceneProxy::UpdateVTKObjects()
     this->NameSurfaces(nullptr, nullptr);
   }
   this->Superclass::UpdateVTKObjects();
+  this->ShowHand();
   this->SyncWorkspace(); // else setting again what another device or view has undone does nothing
 }
 
@@ -236,9 +315,14 @@ void vtkSMHapticSceneProxy::NameSurfaces(vtkSMProxy* source, const char* name)
 void vtkSMHapticSceneProxy::OnRegistered(vtkObject*, unsigned long, void* information)
 {
   const auto* given = static_cast<vtkSMProxyManager::RegisteredProxyInformation*>(information);
-  if (given->Proxy && given->GroupName && std::string(given->GroupName) == "sources")
+  const std::string group = given->Proxy && given->GroupName ? given->GroupName : "";
+  if (group == "sources")
   {
     this->NameSurfaces(given->Proxy, given->ProxyName);
+  }
+  else if (group == "views")
+  {
+    this->FollowView(given->Proxy);
   }
 }
 
@@ -254,7 +338,7 @@ void vtkSMHapticSceneProxy::SyncWorkspace()
   if (vtkPVHapticScene* scene = this->GetScene())
   {
     double matrix[16];
-    scene->GetWorkspaceTransform(matrix);
+    scene->GetWorkspace()->GetTransform(matrix);
     vtkSMPropertyHelper(this, "WorkspaceTransform").Set(matrix, 16);
     this->UpdateProperty("WorkspaceTransform"); // it is in force already
   }

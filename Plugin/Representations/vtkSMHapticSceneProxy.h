@@ -4,8 +4,10 @@
  *
  * A view or representation that is unregistered leaves the scene at once, as does everything when
  * the server is lost; state files get the workspace transform that is in force; surfaces are named
- * as the pipeline browser names their sources; and while ParaView traces, each change of a property
- * becomes a line of Python, the first with all that counts. *
+ * as the pipeline browser names their sources; the hand is shown in each view that shows a surface
+ * in it, with what the servo has done until then; and while ParaView traces, each change of a
+ * property becomes a line of Python, the first with all that counts.
+ *
  * GUI thread.
  *
  * @sa vtkPVHapticScene
@@ -19,6 +21,7 @@
 
 #include <set>
 #include <string>
+#include <vector>
 
 class vtkPVHapticScene;
 class vtkSMTrace;
@@ -55,14 +58,19 @@ private:
   void OnRegistered(vtkObject* caller, unsigned long event, void* information);
   void OnUnregistered(vtkObject* caller, unsigned long event, void* information);
   void OnConnectionLost();
+  void OnViewStart(vtkObject* caller, unsigned long event, void* information);
+  void FollowView(vtkSMProxy* proxy);
+  void ShowHandIn(vtkSMProxy* view);
+  void ShowHand();
   void OnPropertyModified(vtkObject* caller, unsigned long event, void* name);
   void SyncWorkspace();
   void NameSurfaces(vtkSMProxy* source, const char* name);
   void TraceFromHereOn();
   void Trace();
 
-  std::set<std::string> Untraced;      // properties that have changed since the last update
-  vtkWeakPointer<vtkSMTrace> TracedTo; // the tracer that imports what the lines need
+  std::set<std::string> Untraced; // properties that have changed since the last update
+  std::vector<vtkWeakPointer<vtkSMProxy>> Views; // whose renders are followed
+  vtkWeakPointer<vtkSMTrace> TracedTo;           // the tracer that imports what the lines need
 };
 
 #endif

@@ -14,6 +14,9 @@ foreach (file IN ITEMS
     share/doc/vtkhaptics/Data/images/demo.png
     share/doc/vtkhaptics/Interactors/README.md
     share/doc/vtkhaptics/Interactors/Python/examples/offline_trace.py
+    share/doc/vtkhaptics/Plugin/Qt/panel.png
+    share/doc/vtkhaptics/Plugin/docs/touch.html
+    share/doc/vtkhaptics/Plugin/docs/touch.png
     share/doc/vtkhaptics/Plugin/examples/touch_contour.py
     share/doc/vtkhaptics/Testing/Consumer/CMakeLists.txt)
   if (NOT EXISTS "${first}/${file}")

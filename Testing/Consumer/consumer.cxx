@@ -20,7 +20,7 @@ int main()
   scene->Step(1);                      // virtual time; with a hand at the device: Engage()
   device->SetPosition(0.0, 0.0, 0.495);
   scene->Step(200);
-  std::cout << "pressed in by " << scene->GetPenetration() << ", the hand feels "
+  std::cout << "pressed in by " << scene->GetPenetration() << ", the force is "
             << scene->GetForce()[2] << " N\n";
   return scene->GetTouching() ? 0 : 1;
 }

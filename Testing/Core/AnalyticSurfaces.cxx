@@ -13,7 +13,7 @@ namespace
 {
 constexpr double Pi = 3.14159265358979323846;
 
-/// Adds points once each, by an integer key that tells them apart.
+/// Adds points once each, by an integer key that distinguishes them.
 class PointGrid
 {
 public:

@@ -370,4 +370,16 @@ std::vector<Vec3> Judge::NormalsNear(const Vec3& x, double reach) const
     });
   return normals;
 }
+
+std::vector<std::int32_t> Judge::FindNear(const Vec3& from, const Vec3& to, double reach) const
+{
+  std::vector<std::int32_t> near;
+  this->Visit(from, to, reach,
+    [&near](std::int32_t triangle)
+    {
+      near.push_back(triangle);
+      return false;
+    });
+  return near;
+}
 }

@@ -44,7 +44,7 @@ public:
   /// that it is not said of a view that is not plain. Triangles that `eye` lies on are in the way.
   bool IsInView(const Vec3& goal, const Vec3& eye, double spread, double slack) const;
   /// Within a cone of a thousandth: a plain view. `slack`: the rounding of `eye`, nearer than which
-  /// a triangle beside the way might as well be in it.
+  /// a triangle next to the way might as well be in it.
   bool IsInPlainView(const Vec3& goal, const Vec3& eye, double slack = 0.0) const
   {
     return this->IsInView(goal, eye, 1e-3, slack);
@@ -55,6 +55,8 @@ public:
   double SliverClearance(const Vec3& x, double reach) const;
   /// The unit normals of all triangles within `reach` of a point, towards it.
   std::vector<Vec3> NormalsNear(const Vec3& x, double reach) const;
+  /// All triangles that may come within `reach` of a segment.
+  std::vector<std::int32_t> FindNear(const Vec3& from, const Vec3& to, double reach) const;
   /// Of all triangles.
   double LargestSliverClearance() const { return this->LargestClearance; }
 

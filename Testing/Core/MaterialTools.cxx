@@ -48,14 +48,16 @@ TouchedSurface Touchable(
   return { surface, nullptr, MakeProperties(std::move(values), *surface) };
 }
 
-FeltHand::FeltHand(TouchedSurface surface, const Vec3& start, double plainStiffness)
-  : God({ std::move(surface) })
+MaterialHand::MaterialHand(
+  TouchedSurface surface, const Vec3& start, double plainStiffness, double tip)
+  : God({ std::move(surface) }, tip > 0.0 ? Tip::Ball : Tip::Point)
   , PlainStiffness(plainStiffness)
 {
+  this->God.SetTipRadius(tip);
   this->Move(start);
 }
 
-Vec3 FeltHand::Move(const Vec3& hip)
+Vec3 MaterialHand::Move(const Vec3& hip)
 {
   const Contact& contact = this->God.Update(hip);
   const Vec3 force = this->Force.Update(contact, Period, this->PlainStiffness, this->Limits);
@@ -72,7 +74,7 @@ Vec3 FeltHand::Move(const Vec3& hip)
   return force;
 }
 
-Vec3 FeltHand::MoveStraight(const Vec3& to, int ticks)
+Vec3 MaterialHand::MoveStraight(const Vec3& to, int ticks)
 {
   const Vec3 from = this->Hip;
   for (int i = 1; i <= ticks; ++i)

@@ -35,11 +35,12 @@ PropertyField AtPoints(const TriangleSurface& surface, const Function& value)
 /// @brief A hand on a known way, a god-object and its force, and the energy between them.
 ///
 /// World and device frame are the same [m], a tick is 1 ms.
-class FeltHand
+class MaterialHand
 {
 public:
-  /// In free space at `start`.
-  FeltHand(TouchedSurface surface, const Vec3& start, double plainStiffness = 500.0);
+  /// In free space at `start`; with a ball of the radius `tip`.
+  MaterialHand(
+    TouchedSurface surface, const Vec3& start, double plainStiffness = 500.0, double tip = 0.0);
 
   /// Moves the HIP and returns the force [N].
   Vec3 Move(const Vec3& hip);

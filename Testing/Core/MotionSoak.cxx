@@ -1,6 +1,6 @@
 // Moves a god-object along random ways among surfaces that move and deform at random, and asks
 // exact arithmetic in every tick whether it is on the side where it was, and whether what holds it
-// is there. Prints a table; exits with 1 when anything leaked or popped. `--help` tells how to run
+// is there. Prints a table; exits with 1 when anything leaked or popped. `--help` says how to run
 // it for long.
 #include "AnalyticSurfaces.h"
 #include "ExactQueries.h"
@@ -96,7 +96,7 @@ public:
   {
   }
 
-  TouchedSurface Touched() const { return { this->Deformer.Latest(), this->Motion }; }
+  TouchedSurface Surface() const { return { this->Deformer.Latest(), this->Motion }; }
 
   /// Sends it elsewhere now and then, sooner or later than it has arrived.
   void Steer()
@@ -261,7 +261,7 @@ void Run(const Scene& scene, HipPath::Kind kind, long ticks, unsigned seed, Tall
     std::vector<TouchedSurface> surfaces;
     for (const Actor& actor : actors)
     {
-      surfaces.push_back(actor.Touched());
+      surfaces.push_back(actor.Surface());
     }
     return surfaces;
   };
@@ -325,15 +325,16 @@ void Run(const Scene& scene, HipPath::Kind kind, long ticks, unsigned seed, Tall
     }
     const double size = 1e-9;
     // After a squeeze there is a place again somewhere, and not where it was.
-    if (!isPlaced && !wasSqueezed && Length(contact.Carried) > LargestPush * motion + size)
+    if (!isPlaced && !wasSqueezed &&
+      Length(contact.SurfaceDisplacement) > LargestPush * motion + size)
     {
       ++tally.Pops;
       std::printf("POP   %s, %s, tick %ld, seed %u: %g, surfaces moved %g\n", scene.Name,
-        HipPath::NameOf(kind), tick, seed, Length(contact.Carried), motion);
+        HipPath::NameOf(kind), tick, seed, Length(contact.SurfaceDisplacement), motion);
     }
     const bool isSqueezed = contact.Status == UpdateStatus::Squeezed;
     wasSqueezed = isSqueezed;
-    const Vec3 carried = positionBefore + contact.Carried;
+    const Vec3 carried = positionBefore + contact.SurfaceDisplacement;
     if (!isPlaced && !isSqueezed &&
       Length(contact.Position - hip) > Length(carried - hip) * (1.0 + 1e-9) + 1e-9)
     {

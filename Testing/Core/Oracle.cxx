@@ -7,10 +7,12 @@
 
 namespace haptics::testing
 {
-Oracle::Oracle(const std::shared_ptr<const TriangleSurface>& surface)
-  : Before({ surface })
-  , Trial({ surface })
+Oracle::Oracle(const std::shared_ptr<const TriangleSurface>& surface, double radius)
+  : Before({ surface }, radius > 0.0 ? Tip::Ball : Tip::Point)
+  , Trial({ surface }, radius > 0.0 ? Tip::Ball : Tip::Point)
 {
+  this->Before.SetTipRadius(radius);
+  this->Trial.SetTipRadius(radius);
 }
 
 void Oracle::Place(const Vec3& hip)
@@ -47,6 +49,15 @@ Vec3 Oracle::Update(const Vec3& hip)
   this->Before.Continue(this->Trial);
   this->Hip = hip;
   return position;
+}
+
+bool SlipWatch::SlipsAt(const Vec3& hip, const Vec3& oracle)
+{
+  const bool slips = Length(oracle - this->LastOracle) > 4.0 * Length(hip - this->LastHip) + 1e-4;
+  this->Remaining = slips ? 3 : std::max(this->Remaining - 1, 0);
+  this->LastHip = hip;
+  this->LastOracle = oracle;
+  return this->Remaining > 0;
 }
 
 void Accuracy::Add(const Vec3& hip, const Vec3& godObject, const Vec3& oracle)

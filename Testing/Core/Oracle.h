@@ -14,7 +14,8 @@ namespace haptics::testing
 class Oracle
 {
 public:
-  explicit Oracle(const std::shared_ptr<const TriangleSurface>& surface);
+  /// `radius`: of a ball; 0: a point.
+  explicit Oracle(const std::shared_ptr<const TriangleSurface>& surface, double radius = 0.0);
 
   void Place(const Vec3& hip);
   /// The god-object for the HIP's next place. [world]
@@ -26,6 +27,22 @@ private:
   GodObject Before; ///< at the start of the tick
   GodObject Trial;
   Vec3 Hip{};
+};
+
+/// @brief Knows where an oracle slips off, as where the pressed HIP comes out on the other side.
+///
+/// It does so at no speed in particular: a moment later god-object and oracle are both there, and
+/// that is what counts.
+class SlipWatch
+{
+public:
+  /// One tick; whether the oracle slips now, or has within the last two. [world]
+  bool SlipsAt(const Vec3& hip, const Vec3& oracle);
+
+private:
+  Vec3 LastHip{};
+  Vec3 LastOracle{};
+  int Remaining = 0;
 };
 
 /// Errors of a god-object against the oracle over the ticks in contact.

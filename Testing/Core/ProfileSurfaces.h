@@ -9,7 +9,7 @@
 
 namespace haptics::testing
 {
-/// Surfaces of the scenes where methods fail; closed and facing outwards unless told otherwise [m].
+/// Surfaces of the scenes where methods fail; closed and facing outwards unless said otherwise [m].
 
 /// Extrudes a counter-clockwise profile in (x, z) along y, from -halfWidth to halfWidth. The
 /// profile has to be star-shaped about `centre`, where its ends are closed.

@@ -1,7 +1,7 @@
 // Moves a god-object over surfaces that break methods, on random ways about the origin and on ways
 // that seek what is hard on a surface, and has an exact judge say of every tick whether it crosses
 // a triangle, is held by nothing or is stuck. Prints tables; exits with 1 where the judge finds
-// fault, or the pull of a HIP stays unanswered. `--help` tells how to run it for long, or one
+// fault, or the pull of a HIP stays unanswered. `--help` says how to run it for long, or one
 // stroke again.
 #include "AnalyticSurfaces.h"
 #include "HipPath.h"

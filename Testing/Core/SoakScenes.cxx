@@ -56,7 +56,7 @@ TriangleMesh BoxOf(const Vec3& low, const Vec3& high, int cells = 1)
   {
     for (int k = 0; k < 3; ++k)
     {
-      // Its faces exactly where they are told to be.
+      // Its faces exactly where they are given.
       p[k] = p[k] == -0.5 ? low[k]
         : p[k] == 0.5     ? high[k]
                           : low[k] + (p[k] + 0.5) * (high[k] - low[k]);

@@ -20,7 +20,7 @@ public:
     Stroke,         ///< comes down and wanders, pressing
     AlongEdges,     ///< exactly above, on or under edges, from corner to corner
     ThroughCorners, ///< straight through corners, one tick exactly on each
-    InPlanes,       ///< within a facet's very plane, from beside it, and then through
+    InPlanes,       ///< within a facet's very plane, from outside it, and then through
     OnCorners,      ///< from corner to corner, exactly
     Tremor,         ///< of 55 um, in steps of 55 um, pressing anywhere
     IntoFolds,      ///< in spirals into concave edges

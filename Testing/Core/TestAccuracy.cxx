@@ -42,9 +42,7 @@ TEST_P(AgainstOracle, StaysWithinATenthOfAMillimetreOnStrokes)
     Oracle oracle(surface);
     HipPath path(GetParam(), scene.Reach, 11);
     Accuracy accuracy;
-    Vec3 before{};
-    Vec3 hipBefore{};
-    int slipped = 0;
+    SlipWatch watch;
     for (int tick = 0; tick < 4000; ++tick)
     {
       const Vec3 hip = path.Next();
@@ -55,14 +53,9 @@ TEST_P(AgainstOracle, StaysWithinATenthOfAMillimetreOnStrokes)
       }
       const Vec3 position = god.Update(hip).Position;
       const Vec3 right = oracle.Update(hip);
-      // Where the pressed HIP comes out on the other side, the oracle slips off too, at no speed in
-      // particular: a moment later both are there, and that is what counts.
-      const bool slips = Length(right - before) > 4.0 * Length(hip - hipBefore) + 1e-4;
-      slipped = slips ? 3 : std::max(slipped - 1, 0);
-      before = right;
-      hipBefore = hip;
+      const bool slips = watch.SlipsAt(hip, right);
       // A direction needs a force to have one: 0.1 N at 500 N/m.
-      if (Length(right - hip) > 2e-4 && slipped == 0)
+      if (Length(right - hip) > 2e-4 && !slips)
       {
         accuracy.Add(hip, position, right);
       }
@@ -89,7 +82,7 @@ TEST_P(AgainstOracle, StaysWithinATenthOfAMillimetreOnStrokes)
       EXPECT_LE(accuracy.PositionError(1.0), 0.1e-3) << scene.Name;
     }
     EXPECT_LE(accuracy.DirectionError(0.99), 3.0) << scene.Name;
-    // A twentieth is the least that a hand can tell.
+    // A twentieth is the least that a hand can distinguish.
     EXPECT_LE(accuracy.MagnitudeError(0.99), 0.05) << scene.Name;
   }
 }

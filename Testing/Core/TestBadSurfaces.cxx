@@ -59,8 +59,8 @@ TEST(BadSurfaces, TrianglesWithoutAreaAmongGoodOnesChangeNothing)
   }
 }
 
-// Coordinates of 1e8 are known to 1.5e-8: details of 1e-3 are there, and are felt to that.
-TEST(BadSurfaces, DetailsOfAMillimetreAreFeltAtCoordinatesOfAHundredMillion)
+// Coordinates of 1e8 are known to 1.5e-8: details of 1e-3 are there, and hold to that.
+TEST(BadSurfaces, DetailsOfAMillimetreHoldAtCoordinatesOfAHundredMillion)
 {
   const Vec3 far{ 1e8, -1e8, 1e8 };
   const auto surface = MakeSurface(Moved(Star(3, 1e-3, 0.3, 5), far), Side::Front);

@@ -160,7 +160,7 @@ TEST(ChangingSurfaces, AnOpenSheetKeepsTheSideThatItWasHeldFrom)
   }
 }
 
-TEST(ChangingSurfaces, WhatIsBesideTheRimOfASheetStaysFree)
+TEST(ChangingSurfaces, WhatIsOutsideTheRimOfASheetStaysFree)
 {
   GodObject before(Listed(MakeSurface(Square(0.1, 4), Side::Both)));
   before.Update({ 0.12, 0, 0.0001 });
@@ -180,15 +180,15 @@ TEST(ChangingSurfaces, OthersHoldTheGodObjectThatIsPushed)
   list.front().Surface = MakeSurface(Icosphere(4, 0.05));
   GodObject god(list);
   god.Continue(before);
-  // Only beside the lens that the two have in common there is a place.
+  // Only outside the lens that the two have in common there is a place.
   EXPECT_EQ(god.Update({ 0, 0, 0.04 }).Status, UpdateStatus::Touching);
   EXPECT_LT(god.LocalPosition(1)[2], 0.0);
   EXPECT_FALSE(ExactQueries(list.front().Surface).IsInside(god.LocalPosition(0)));
   EXPECT_NEAR(Length(god.LocalPosition(0)), 0.05, 1e-4);
 }
 
-// A hand at rest: all that a change does to the spring is told as the surfaces' work.
-TEST(ChangingSurfaces, WhatAChangeDoesToAHandAtRestIsCarried)
+// A hand at rest: all that a change does to the spring is reported as the surfaces' work.
+TEST(ChangingSurfaces, WhatAChangeDoesToAHandAtRestIsTheSurfacesWork)
 {
   const Vec3 hip{ 0.004, -0.003, 0.026 };
   auto god = std::make_unique<GodObject>(Listed(MakeSurface(Contour(0, 0.03))));
@@ -202,16 +202,17 @@ TEST(ChangingSurfaces, WhatAChangeDoesToAHandAtRestIsCarried)
     god = Changed(*god, MakeSurface(Contour(step, 0.03 + 0.002 * std::sin(0.7 * step))));
     const Contact& contact = god->Update(hip);
     ASSERT_EQ(contact.Status, UpdateStatus::Touching);
-    ASSERT_LT(Length(contact.Position - before - contact.Carried), 1e-12) << "step " << step;
+    ASSERT_LT(Length(contact.Position - before - contact.SurfaceDisplacement), 1e-12)
+      << "step " << step;
     const double way = Length(contact.Position - hip) - Length(before - hip);
     grown += way > 1e-4;
     shrunk += way < -1e-4;
-    ASSERT_EQ(Length(god->Update(hip).Carried), 0.0);
+    ASSERT_EQ(Length(god->Update(hip).SurfaceDisplacement), 0.0);
   }
   EXPECT_GT(grown, 10);
   EXPECT_GT(shrunk, 10);
   GodObject free(std::vector<TouchedSurface>{});
   free.Continue(*god);
   const Vec3 before = god->Current().Position;
-  EXPECT_LT(Length(free.Update(hip).Carried - (hip - before)), 1e-12) << "it is gone";
+  EXPECT_LT(Length(free.Update(hip).SurfaceDisplacement - (hip - before)), 1e-12) << "it is gone";
 }

@@ -1,5 +1,5 @@
 // Where several surfaces lie along each other all of their materials count, in whatever order they
-// were added, and what is felt is continuous where one of them ends.
+// were added, and the material is continuous where one of them ends.
 #include "AnalyticSurfaces.h"
 #include "MaterialTools.h"
 
@@ -174,14 +174,14 @@ TEST(CoincidentSurfaces, OneThatIsLowerCountsLessAndThenNoLonger)
   EXPECT_DOUBLE_EQ(last, 200.0);
 }
 
-TEST(CoincidentSurfaces, AreFeltContinuouslyOverASeam)
+TEST(CoincidentSurfaces, BlendContinuouslyOverASeam)
 {
   for (const double step : { 0.0, -0.5 * Clearance })
   {
     const std::vector<Plate> plates{ { -0.1, 0.0, 0.0, 200.0 }, { 0.0, 0.1, step, 800.0 } };
     Hand there(plates, false);
     Hand back(plates, true);
-    // Each press is a touch of its own: what is felt at a place, with no tank in between.
+    // Each press is a touch of its own: the force at a place, with no tank in between.
     const double stride = 0.1 * Clearance;
     double last = 200.0;
     double largest = 0.0;
@@ -227,7 +227,7 @@ TEST(CoincidentSurfaces, GiveTheSameForceOverASeamInBothOrders)
   }
 }
 
-TEST(CoincidentSurfaces, AWallBesideAFloorHasAMaterialOfItsOwn)
+TEST(CoincidentSurfaces, AWallNextToAFloorHasAMaterialOfItsOwn)
 {
   SurfaceOptions options;
   options.TouchedSide = Side::Front;
@@ -255,7 +255,7 @@ TEST(CoincidentSurfaces, AWallBesideAFloorHasAMaterialOfItsOwn)
   EXPECT_NEAR(contact.Material.Stiffness, 0.75 * 100.0 + 0.25 * 1000.0, 1e-3);
 }
 
-TEST(CoincidentSurfaces, CountOnTheSideThatIsTouchedOnly)
+TEST(CoincidentSurfaces, CountOnlyOnTheSideThatHolds)
 {
   // One that is touched from both sides, and one on it that has a front only.
   for (const bool isReversed : { false, true })

@@ -255,7 +255,7 @@ TEST(Engines, LeaveNothingOutWherePointsMove)
   }
 }
 
-TEST(Engines, LeadToTheSameContact)
+TEST(Engines, GiveTheSameContact)
 {
   const std::pair<TriangleMesh, double> scenes[] = { { Star(3, 0.04, 0.4, 3), 0.06 },
     { Scaled(Soup(400, 0.4, 7), 0.04), 0.06 }, { Torus(0.025, 0.008, 32, 16), 0.04 },

@@ -98,7 +98,7 @@ TEST(DeformingSurfaces, PushARestingHipWithoutSteps)
     before = force;
     ASSERT_EQ(contact.NumberOfConstraints, 1) << tick;
     ASSERT_NEAR(contact.Position[2], speed * Tick * (tick + 1), Tight) << "tick " << tick;
-    ASSERT_NEAR(contact.Carried[2], speed * Tick, Tight);
+    ASSERT_NEAR(contact.SurfaceDisplacement[2], speed * Tick, Tight);
   }
   EXPECT_LE(largestStep, 0.05);
   EXPECT_NEAR(largestStep, stiffness * speed * Tick, 1e-6); // and no less: it does move
@@ -237,6 +237,21 @@ TEST(DeformingSurfaces, EnginesFindTrianglesWhereverTheyPass)
   }
 }
 
+/// The radius of the bounds, which a surface has when it is built, is no growth of anything.
+TEST(DeformingSurfaces, TheFirstDeformationRefitsACopyOfTheEngineThatThereIs)
+{
+  const TriangleMesh mesh = Icosphere(4, 0.05);
+  SurfaceDeformer deformer(MakeSurface(mesh, Side::Front, EngineKind::Embree));
+  std::string error;
+  for (int step = 1; step < 6; ++step)
+  {
+    ASSERT_TRUE(deformer.Deform(
+      Mapped(mesh.Points, [step](const Vec3& p) { return (1.0 + 0.01 * step) * p; }), 0.01, error))
+      << error;
+  }
+  EXPECT_EQ(deformer.NumberOfBuilds(), 0);
+}
+
 TEST(DeformingSurfaces, AnEngineThatHasLostItsOrderIsBuiltAnew)
 {
   const TriangleMesh mesh = Square(0.1, 32);
@@ -282,8 +297,8 @@ TEST(DeformingSurfaces, WhatCannotBeDeformedIsRefusedAndTheLastStays)
   EXPECT_TRUE(deformer.Deform(mesh.Points, 0.01, error)) << error;
 }
 
-// What is certain to pass beside does; what passes over is told, wherever it does.
-TEST(SweptTriangle, TellsWhatPassesOverAPoint)
+// What is certain to miss does; what passes over is found, wherever it does.
+TEST(SweptTriangle, FindsWhatPassesOverAPoint)
 {
   const auto sweep = [](const Vec3& from, const Vec3& to)
   {

@@ -73,7 +73,7 @@ TEST(Friction, DoesNotMoveABitWhileStuck)
   }
 }
 
-// Encoders tell a slow hand's way in steps of 55 um, with ticks between in which nothing moves.
+// Encoders report a slow hand's way in steps of 55 um, with ticks between in which nothing moves.
 TEST(Friction, SlidesWithoutStutteringUnderTheStepsOfAnEncoder)
 {
   GodObject god({ Touchable(Table(), Rough(0.5, 0.3)) });
@@ -243,7 +243,7 @@ TEST(Friction, KeepsTheGuaranteesOnRandomFieldsAndWays)
   struct Case
   {
     TriangleMesh Mesh;
-    Side Touched;
+    Side TouchedSide;
     double Reach;
   };
   const Case cases[] = { { Star(3, 0.04, 0.4, 3), Side::Front, 0.04 },
@@ -256,7 +256,7 @@ TEST(Friction, KeepsTheGuaranteesOnRandomFieldsAndWays)
   long slid = 0;
   for (const Case& c : cases)
   {
-    const auto surface = MakeSurface(c.Mesh, c.Touched);
+    const auto surface = MakeSurface(c.Mesh, c.TouchedSide);
     const ExactQueries exact(surface);
     PropertyValues values;
     values[Property::StaticFriction] = AtPoints(*surface, [&](const Vec3&) { return to2(random); });

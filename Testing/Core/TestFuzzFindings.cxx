@@ -1,9 +1,13 @@
 // What fuzzing found, each a test of its own: see Testing/Fuzz.
 #include "AnalyticSurfaces.h"
 #include "ExactQueries.h"
+#include "RandomVectors.h"
 #include "haptics/Contact/GodObject.h"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
 
 using namespace haptics;
 using namespace haptics::testing;
@@ -19,6 +23,22 @@ std::shared_ptr<const TriangleSurface> OneTriangle(
   return MakeSurface(mesh, side, EngineKind::Embree);
 }
 
+/// Whether the god-object, on the way of its last update over one surface, met a triangle from a
+/// side that can be touched. Exact.
+bool HasCrossed(const GodObject& god, const ExactQueries& exact)
+{
+  int corners = 0;
+  const Vec3* const way = god.Way(corners);
+  for (int i = 0; i + 1 < corners; ++i)
+  {
+    if (exact.Crosses(way[i], way[i + 1]))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 /// Moves over the HIPs and checks every piece of the way with exact arithmetic.
 void ExpectNoCrossing(
   const std::shared_ptr<const TriangleSurface>& surface, const std::vector<Vec3>& hips)
@@ -29,12 +49,7 @@ void ExpectNoCrossing(
   {
     const Contact& contact = god.Update(hips[tick]);
     EXPECT_NE(contact.Status, UpdateStatus::Overloaded);
-    int corners = 0;
-    const Vec3* const way = god.Way(corners);
-    for (int i = 0; i + 1 < corners; ++i)
-    {
-      EXPECT_FALSE(exact.Crosses(way[i], way[i + 1])) << "tick " << tick << ", piece " << i;
-    }
+    EXPECT_FALSE(HasCrossed(god, exact)) << "tick " << tick;
   }
 }
 }
@@ -78,9 +93,9 @@ TEST(FuzzFindings, AHugeCrackWidthCountsAsTheSizeOfTheSurface)
   }
 }
 
-// Beside a huge surface the numbers of the scene are coarser than a small one is large: a way that
+// Near a huge surface the numbers of the scene are coarser than a small one is large: a way that
 // ends short of the small one must not be rounded to beyond it.
-TEST(FuzzFindings, ASmallSurfaceBesideAHugeOneIsNotPassedByRounding)
+TEST(FuzzFindings, ASmallSurfaceNearAHugeOneIsNotPassedByRounding)
 {
   const auto huge = OneTriangle({ 0, 0, 1e34 }, { 8e34, 0, 1e34 }, { 0, -8e34, 2e34 }, Side::Front);
   for (const Side side : { Side::Front, Side::Both })
@@ -120,4 +135,98 @@ TEST(FuzzFindings, AWayThroughATriangleAsThinAsRoundingIsHeld)
     ExpectNoCrossing(
       MakeSurface(mesh, Side::Both, engine), { { -0.12, -0.31, -0.24 }, { -2, -2, -2 } });
   }
+}
+
+// A ball that is put so near to a facet grows away from that, on the side that it is on, be that a
+// fraction of a rounding.
+TEST(FuzzFindings, ABallThatStartsWithinRoundingOfAFacetGrowsOnItsSide)
+{
+  struct
+  {
+    TriangleMesh Mesh;
+    Side TouchedSide;
+  } scenes[] = {
+    { { { { 2, 2, 1.75 }, { 2, 1.75, -2 }, { -2, -2, -1.25 } }, { { 1, 2, 0 } } }, Side::Both },
+    { { { { 2, 2, 1.75 }, { 2, 1.75, -2 }, { -2, -2, -1.25 } }, { { 1, 2, 0 } } }, Side::Front },
+    { { { { -0.25, -2, -2 }, { -2, 0.5, -2 }, { -2, -0.25, -1.75 } }, { { 1, 2, 0 }, { 1, 0, 2 } },
+        { Side::Both, Side::Front } },
+      Side::Both },
+    { Square(1.0, 3), Side::Both },
+    { Icosphere(1, 1.0), Side::Both },
+    { Icosphere(1, 1.0), Side::Front },
+    { Star(2, 1.0, 0.4, 7), Side::Both },
+    { Soup(60, 0.4, 3), Side::Both },
+  };
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  std::uniform_int_distribution<int> ulps(-3, 3);
+  int grown = 0;
+  for (const auto& scene : scenes)
+  {
+    const auto surface = MakeSurface(scene.Mesh, scene.TouchedSide);
+    const ExactQueries exact(surface);
+    const Vec3 middle = surface->Origin();
+    const auto count = static_cast<std::uint32_t>(surface->Triangles().size());
+    for (int trial = 0; trial < 400; ++trial)
+    {
+      const Triangle& corners = surface->Triangles()[random() % count];
+      // Of three trials one is at an edge, and one at a corner.
+      const double v = trial % 3 < 2 ? share(random) : 0.0;
+      const double w = trial % 3 < 1 ? share(random) * (1.0 - v) : 0.0;
+      const Vec3& a = surface->Points()[corners[0]];
+      Vec3 hip = middle + a + v * (surface->Points()[corners[1]] - a) +
+        w * (surface->Points()[corners[2]] - a);
+      for (double& x : hip)
+      {
+        x += ulps(random) * 0x1p-53;
+      }
+      GodObject god({ surface }, Tip::Ball);
+      god.SetTipRadius(0.25);
+      const Vec3 pull = (trial % 2 ? 0.01 : 4.0) * NormalVector(random);
+      for (int tick = 0; tick < 8; ++tick)
+      {
+        god.Update(tick < 4 ? hip : hip + pull);
+        ASSERT_FALSE(HasCrossed(god, exact)) << "trial " << trial << ", tick " << tick;
+      }
+      grown += god.BallRadius() > 1e-3 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(grown, 7 * 300);
+}
+
+// Two sheets back to back, as thin as rounding and inside out, with a rim: what says at an edge
+// whether a ball is outside says that it is not.
+TEST(FuzzFindings, ABallsCentreCrossesNoFrontOfASliver)
+{
+  std::mt19937 random(11);
+  int touched = 0;
+  for (int trial = 0; trial < 300; ++trial)
+  {
+    TriangleMesh mesh;
+    mesh.Points = { { -1, -1, 1.5 }, { -0.5, -0.25, -1.75 }, { -0.5, -0.5, -0.5 },
+      { -0.5, -0.5, -0.5 } };
+    mesh.Points[3][trial % 3] += (trial % 2 ? 1.0 : -1.0) * (1 + trial % 5) * 0x1p-54;
+    mesh.Triangles = { { 3, 0, 2 }, { 3, 1, 0 }, { 0, 1, 2 } };
+    if (trial % 4 == 3)
+    {
+      mesh.Triangles.push_back({ 3, 2, 1 });
+    }
+    const auto surface = MakeSurface(mesh, Side::Front);
+    const ExactQueries exact(surface);
+    GodObject god({ surface }, Tip::Ball);
+    god.SetTipRadius(trial % 7 < 3 ? 1.5 : 0.2);
+    const Vec3 from = NormalVector(random);
+    // Through the corner, and through other places of the sheets.
+    const double share = trial % 2 ? 0.0 : 0.4;
+    const Vec3 through = mesh.Points[2] + share * (mesh.Points[0] - mesh.Points[2]) +
+      0.5 * share * (mesh.Points[1] - mesh.Points[2]);
+    const Vec3 to = from + 2.0 * (through - from);
+    for (int tick = 0; tick <= 24; ++tick)
+    {
+      const double part = trial % 5 ? tick / 24.0 : std::min(tick, 1);
+      touched += god.Update(from + part * (to - from)).IsTouching() ? 1 : 0;
+      ASSERT_FALSE(HasCrossed(god, exact)) << "trial " << trial << ", tick " << tick;
+    }
+  }
+  EXPECT_GT(touched, 300);
 }

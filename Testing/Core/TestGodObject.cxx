@@ -286,7 +286,7 @@ TEST(GodObject, GoesAroundTheRimOfATwoSidedSheet)
 }
 
 // Coming around a sharp edge, the god-object passes behind the next facet's plane: no contact.
-TEST(GodObject, FeelsTheSameFromOutsideWhetherOneSideOrBothAreTouched)
+TEST(GodObject, IsTheSameFromOutsideWithOneSideAndWithBoth)
 {
   const std::pair<TriangleMesh, double> scenes[] = { { Box(0.03, 0.03, 0.03, 8), 0.03 },
     { Star(3, 0.04, 0.4, 3), 0.04 }, { Icosphere(2, 0.03), 0.03 }, { Groove(60, 0.05), 0.03 } };
@@ -364,7 +364,7 @@ TEST(GodObject, GivesTheSameContactAtEveryScaleAndPlace)
   }
 }
 
-TEST(GodObject, FeelsTheSmallestTriangles)
+TEST(GodObject, IsHeldByTheSmallestTriangles)
 {
   // 5 cm, 327,680 triangles of 0.1 mm^2: with an absolute cut-off none of them exists.
   GodObject god({ MakeSurface(Icosphere(7, 0.05)) });
@@ -427,7 +427,7 @@ TEST(GodObject, ContinuesWhereAnotherStands)
 }
 
 // A recording that is played gives the same again, whatever was touched before it.
-TEST(GodObject, PlacedItFeelsTheSameToTheLastDigitWhateverWasBefore)
+TEST(GodObject, PlacedItMovesTheSameToTheLastDigitWhateverWasBefore)
 {
   const auto surface = MakeSurface(Icosphere(3, 0.05));
   const auto stroke = [](double turn, int tick)
@@ -463,7 +463,7 @@ TEST(GodObject, IsFreeWithoutSurfaces)
   EXPECT_EQ(god.Update({ 1, 2, 3 }).Status, UpdateStatus::Free);
 }
 
-TEST(GodObject, FeelsTheTipOfAConeOfThousandsOfTriangles)
+TEST(GodObject, IsHeldByTheTipOfAConeOfThousandsOfTriangles)
 {
   for (const int count : { 100, 5000, 20000 }) // all meet in the tip
   {

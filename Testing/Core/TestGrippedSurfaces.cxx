@@ -1,4 +1,4 @@
-// Surfaces that the hand carries: not felt while it does, and never lost afterwards. In the
+// Surfaces that the hand carries: no contact while it does, and never lost afterwards. In the
 // drawings o is the god-object. Lengths are metres, a tick is a millisecond.
 #include "AnalyticSurfaces.h"
 #include "ExactQueries.h"
@@ -78,7 +78,7 @@ RigidPose At(const Vec3& translation)
 }
 }
 
-TEST(GrippedSurfaces, AreNotFeltAndOthersAre)
+TEST(GrippedSurfaces, DoNotHoldAndOthersDo)
 {
   Bench bench(Box(0.02, 0.02, 0.02));
   bench.MoveTo({ 0.003, 0.005, 0.03 });
@@ -103,7 +103,7 @@ TEST(GrippedSurfaces, HoldAHandThatHasGoneIntoThemWhenTheyAreLetGo)
   bench.Publish(true);
   const Vec3 by{ 0.04, -0.02, 0.05 };
   bench.MoveTo(by + Vec3{ 0.003, 0.005, 0.02 });
-  bench.Motion->JumpTo(At(by)); // told, and followed by nobody
+  bench.Motion->JumpTo(At(by)); // set, and followed by nobody
   bench.MoveTo(by + Vec3{ 0.003, 0.005, 0.019 });
   EXPECT_EQ(Length(bench.God->LocalPosition(1) - gripped), 0.0) << "bit for bit";
   bench.Publish(false);
@@ -187,7 +187,7 @@ TEST(GrippedSurfaces, ThatOthersTakeThePlaceOfMeanwhileAreLetGoOfWhereTheHandIs)
   EXPECT_NEAR(bench.MoveTo(by + Vec3{ 0.003, 0.005, 0.009 }).Displacement[2], 0.001, Tight);
 }
 
-// Of an open sheet nothing tells which side a hand was on but the point where it was gripped.
+// Of an open sheet nothing says which side a hand was on but the point where it was gripped.
 TEST(GrippedSurfaces, ThatAreSheetsAndChangeMeanwhileKeepTheirSide)
 {
   for (const bool sameUpdate : { false, true })
@@ -211,7 +211,7 @@ TEST(GrippedSurfaces, ThatAreSheetsAndChangeMeanwhileKeepTheirSide)
 
 // Random parts are gripped, carried with the picture's delay and let go of while the hand moves,
 // some against the wall. Nothing is ever entered.
-TEST(GrippedSurfaces, AreNeverEnteredHoweverTheyAreCarried)
+TEST(GrippedSurfaces, AreNeverEnteredHoweverTheyAreMoved)
 {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);

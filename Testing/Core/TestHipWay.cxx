@@ -1,4 +1,4 @@
-// GodObject::SetPieceLimit: the HIP's way within a tick.
+// GodObject::SetSubstepLimit: the HIP's way within a tick.
 #include "AnalyticSurfaces.h"
 #include "MaterialTools.h"
 #include "SurfacePath.h"
@@ -41,7 +41,7 @@ std::vector<Vec3> Trace(const std::shared_ptr<const TriangleSurface>& surface,
   const std::vector<Vec3>& hips, int pieces, int steps = 1)
 {
   GodObject god({ surface });
-  god.SetPieceLimit(pieces);
+  god.SetSubstepLimit(pieces);
   god.Update(1.2 * hips[0]);
   god.Update(hips[0]);
   std::vector<Vec3> trace{ god.Current().Position };
@@ -110,7 +110,7 @@ TEST(HipWay, IsOnePieceOnSmoothGroundInFreeSpaceAndAtRest)
   EXPECT_EQ(Trace(sphere, hips, 1), Trace(sphere, hips, 16)); // to the last bit
 
   GodObject god({ RoughBall() });
-  god.SetPieceLimit(16);
+  god.SetSubstepLimit(16);
   int corners = 0;
   for (int i = 0; i < 100; ++i)
   {
@@ -125,7 +125,10 @@ TEST(HipWay, IsOnePieceOnSmoothGroundInFreeSpaceAndAtRest)
   const Vec3 rest = god.Current().Position;
   for (int i = 0; i < 100; ++i)
   {
-    EXPECT_EQ(god.Update({ 0.045, 1e-3, 2e-3 }).Position, rest);
+    const Vec3 now = god.Update({ 0.045, 1e-3, 2e-3 }).Position;
+    EXPECT_LT(Length(now - rest), 1e-17); // the last bits, as in one step: two planes hold it
+    god.Way(corners);
+    EXPECT_LE(corners, 3);
   }
 }
 
@@ -139,7 +142,7 @@ TEST(HipWay, NeverTakesTheGodObjectFartherFromTheHip)
     const auto surface = RoughBall();
     GodObject god({ friction > 0.0 ? Touchable(surface, Rough(friction, 0.8 * friction))
                                    : TouchedSurface{ surface } });
-    god.SetPieceLimit(16);
+    god.SetSubstepLimit(16);
     Vec3 hip{ 1.2 * Radius, 0.0, 0.0 };
     Vec3 before = god.Update(hip).Position;
     for (int tick = 0; tick < 20000; ++tick)
@@ -160,8 +163,8 @@ TEST(HipWay, CrossesNothingWhateverItsPieces)
   {
     const TriangleMesh mesh = Star(4, 1.0, 0.3, seed);
     const std::vector<TouchedSurface> surfaces{ { MakeSurface(mesh) } };
-    GodObjectFollower god(surfaces, GodObject::LargestNumberOfPieces);
-    GodObjectFollower probe(surfaces, GodObject::LargestNumberOfPieces);
+    GodObjectFollower god(surfaces, GodObject::LargestNumberOfSubsteps);
+    GodObjectFollower probe(surfaces, GodObject::LargestNumberOfSubsteps);
     Trial::Settings settings = Trial::SettingsOf(surfaces);
     settings.PressEvery = 0;
     Trial trial(Trial::PartsOf(surfaces), god, probe, settings);
@@ -186,10 +189,36 @@ TEST(HipWay, CrossesNothingWhateverItsPieces)
   }
 }
 
+//    _____|  |_____     each hand comes from the left, over a slot that it crosses within a tick,
+//    and
+//      x ------> x      one that stops in it
+TEST(HipWay, FallsIntoASlotThatTheHandStopsInAndIntoNoneThatItCrosses)
+{
+  const auto plate = [](double left, double right)
+  {
+    const double half = 0.5 * (right - left);
+    return Moved(Box(half, 0.5, 0.1), { left + half, 0.0, -0.1 });
+  };
+  for (const double width : { 1e-9, 1e-6, 1e-3 })
+  {
+    const auto surface = MakeSurface(Joined(plate(-0.5, -0.5 * width), plate(0.5 * width, 0.5)));
+    for (const double end : { 0.01, 0.0 })
+    {
+      GodObject god({ surface });
+      god.SetSubstepLimit(16);
+      god.Place({ -0.01, 0.003, 0.02 });
+      god.Update({ -0.01, 0.003, -0.05 });
+      const Contact& contact = god.Update({ end, 0.003, -0.05 });
+      EXPECT_NEAR(contact.Displacement[0], 0.0, 1e-12) << width;
+      EXPECT_NEAR(contact.Displacement[2], end > 0.0 ? 0.05 : 0.0, 1e-9) << width;
+    }
+  }
+}
+
 TEST(HipWay, LimitIsClamped)
 {
   const auto surface = RoughBall();
   const std::vector<Vec3> hips = StrokeAround(5e-4, 200, 2e-3);
   EXPECT_EQ(Trace(surface, hips, -5), Trace(surface, hips, 1));
-  EXPECT_EQ(Trace(surface, hips, 1000), Trace(surface, hips, GodObject::LargestNumberOfPieces));
+  EXPECT_EQ(Trace(surface, hips, 1000), Trace(surface, hips, GodObject::LargestNumberOfSubsteps));
 }

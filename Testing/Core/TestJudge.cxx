@@ -1,6 +1,7 @@
 // The judge is judged: hand-made ways that cross, are held by nothing or are stuck have to be
 // found, and good ones have to be let go.
 #include "AnalyticSurfaces.h"
+#include "BallTrial.h"
 #include "ExactSigns.h"
 #include "Judge.h"
 #include "Trial.h"
@@ -140,7 +141,7 @@ TEST(Judge, FindsCrossingsOfFacesEdgesAndCorners)
         EXPECT_FALSE(judge.Crosses(put(at), above));
         EXPECT_FALSE(judge.Crosses(above, put(at + Vec3{ 0, 0, 0x1p-20 })));
       }
-      // Aslant through the corner, and beside all.
+      // Aslant through the corner, and past all.
       EXPECT_TRUE(judge.Crosses(put({ -0.5, -0.25, 0.5 }), put({ 0.5, 0.25, -0.5 })));
       EXPECT_FALSE(judge.Crosses(put({ 2, 0, 0.5 }), put({ 1.125, 0, -0.5 })));
     }
@@ -201,7 +202,7 @@ TEST(Judge, FindsCrossingsOfNeedlesAsThinAsRounding)
   EXPECT_GT(needles, 300);
 }
 
-TEST(Judge, TellsAWayWithinATrianglesPlaneFromACrossing)
+TEST(Judge, DistinguishesAWayWithinATrianglesPlaneFromACrossing)
 {
   for (const Put& put : Places)
   {
@@ -254,7 +255,7 @@ TEST(Judge, SeesPlainlyWhereTheConeIsEmpty)
     const Vec3 goal = put({ 0, 0, -1 });
     const auto sees = [&](const TriangleMesh& mesh, bool hasBack)
     { return JudgeOf(put(mesh), hasBack).IsInPlainView(goal, eye); };
-    // A plate whose edge is at x beside the axis, at half way: the cone's radius is 1e-3 there.
+    // A plate whose edge is at x next to the axis, at half way: the cone's radius is 1e-3 there.
     const auto plate = [](double x) { return OneTriangle({ x, -9, 0 }, { 9, 0, 0 }, { x, 9, 0 }); };
     EXPECT_FALSE(sees(plate(-1.0), true));
     EXPECT_FALSE(sees(plate(0.0), true));
@@ -276,7 +277,7 @@ TEST(Judge, SeesPlainlyWhereTheConeIsEmpty)
       return Joined(OneTriangle({ half, -9, -9 }, { half, 9, 0 }, { half, -9, 9 }),
         OneTriangle({ -half, -9, -9 }, { -half, -9, 9 }, { -half, 9, 0 }));
     };
-    // A tube of roundings about the way to a near goal, beside a wall.
+    // A tube of roundings about the way to a near goal, next to a wall.
     const Judge wall = JudgeOf(put(plate(0x1p-11)), true);
     const double scale = put.Scale;
     const Vec3 near = put({ 0, 0, 0.0625 });
@@ -363,7 +364,7 @@ TEST_P(TrialOverAPlate, FindsCrossings)
   EXPECT_EQ(trial.Count()[Fault::Phantom], 0);
 }
 
-TEST_P(TrialOverAPlate, FindsWaysThatDoNotJoinOrLeadAway)
+TEST_P(TrialOverAPlate, FindsWaysThatDoNotJoinOrGoAway)
 {
   HandMade jumper([](const Vec3&, const Vec3& hip) { return std::vector<Vec3>{ hip, hip }; });
   Trial jumps = this->Make(jumper, jumper);
@@ -401,7 +402,7 @@ TEST_P(TrialOverAPlate, FindsPhantomsAndLetsGoWhatIsLate)
   EXPECT_EQ(patient.Count()[Fault::Phantom], 0);
   EXPECT_EQ(patient.Count().Ticks, 4);
 
-  // Beside an edge of the plate, where only growth could hold it; and within the cone of it.
+  // Next to an edge of the plate, where only growth could hold it; and within the cone of it.
   trial.Place(this->At(1.25, 0, 0.5));
   trial.Tick(this->At(1.25, 0, -0.5));
   EXPECT_EQ(trial.Count()[Fault::Phantom], 2);
@@ -453,7 +454,7 @@ TEST_P(TrialOverAPlate, FindsStuckTicks)
   }
 }
 
-TEST_P(TrialOverAPlate, TellsStuckFromBalancing)
+TEST_P(TrialOverAPlate, DistinguishesStuckFromBalancing)
 {
   const auto faults = [&](const Vec3& from, const Vec3& hip, const Vec3& pressed)
   {
@@ -530,3 +531,45 @@ TEST(Trial, FindsNoFaultWithAGodObjectOnAPlaneABallAndInACorner)
     }
   }
 }
+
+// A box of 2 m, whose faces lie at 1 m, and ways of the centre of a ball of 0.25 m along its top.
+struct BallWay
+{
+  const char* Name;
+  std::vector<Vec3> Corners;
+  long Overlaps;
+  long Crossings;
+};
+
+class JudgeOfBalls : public ::testing::TestWithParam<BallWay>
+{
+};
+
+TEST_P(JudgeOfBalls, FindsWhatOverlapsAndWhatCrosses)
+{
+  std::string error;
+  const auto box = TriangleSurface::Build(Box(1.0, 1.0, 1.0, 4), SurfaceOptions(), error);
+  ASSERT_TRUE(box) << error;
+  BallTrial trial({ box }, 0.25, 0);
+  const std::vector<Vec3>& way = GetParam().Corners;
+  trial.JudgeWay(way.data(), static_cast<int>(way.size()), 0.25, way.back());
+  EXPECT_EQ(trial.Count().Pieces, static_cast<long>(way.size()) - 1);
+  EXPECT_EQ(trial.Count().Overlaps, GetParam().Overlaps);
+  EXPECT_EQ(trial.Count().Crossings, GetParam().Crossings);
+}
+
+INSTANTIATE_TEST_SUITE_P(Ways, JudgeOfBalls,
+  ::testing::Values(BallWay{ "AlongAFace", { { -0.5, 0.1, 1.25 }, { 0.5, 0.1, 1.25 } }, 0, 0 },
+    BallWay{ "DipsTowardsAFace",
+      { { -0.5, 0.1, 1.25 }, { 0.0, 0.1, 1.25 - 1e-6 }, { 0.5, 0.1, 1.25 } }, 1, 0 },
+    // At 45 degrees over an edge, 0.25 m away from that is 0.1767767 m outwards of both its faces.
+    BallWay{
+      "PastAnEdge", { { 1.1767767, -2.0, 1.1767767 }, { 1.1767767, 2.0, 1.1767767 } }, 0, 0 },
+    BallWay{ "TooNearToAnEdge", { { 1.17677, -2.0, 1.17677 }, { 1.17677, 2.0, 1.17677 } }, 1, 0 },
+    BallWay{ "CutsAnEdgeBetweenItsEnds", { { 0.5, 0.1, 1.25 }, { 1.25, 0.1, 0.5 } }, 1, 1 },
+    // A corner is 0.25 m from (1, 1, 1) + 0.1443376 (1, 1, 1).
+    BallWay{ "TouchesACorner", { { 1.1443376, 1.1443376, 1.1443376 }, { 1.5, 1.5, 1.5 } }, 0, 0 },
+    BallWay{ "TooNearToACorner", { { 1.14433, 1.14433, 1.14433 }, { 1.5, 1.5, 1.5 } }, 1, 0 },
+    BallWay{ "ThroughAFace", { { 0.1, 0.2, 1.25 }, { 0.1, 0.2, 0.5 } }, 1, 1 },
+    BallWay{ "OutThroughABack", { { 0.1, 0.2, 0.5 }, { 0.1, 0.2, 1.5 } }, 0, 0 }),
+  [](const ::testing::TestParamInfo<BallWay>& info) { return std::string(info.param.Name); });

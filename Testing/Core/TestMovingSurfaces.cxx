@@ -63,7 +63,7 @@ TEST(MovingSurfaces, PushARestingHipWithoutSteps)
     before = force;
     ASSERT_EQ(contact.NumberOfConstraints, 1);
     ASSERT_NEAR(contact.Position[2], motion->Pose().Translation[2], Tight) << "tick " << tick;
-    ASSERT_NEAR(contact.Carried[2], speed * Tick, Tight);
+    ASSERT_NEAR(contact.SurfaceDisplacement[2], speed * Tick, Tight);
   }
   EXPECT_LE(largestStep, 0.05);
   EXPECT_NEAR(largestStep, stiffness * speed * Tick, 1e-6); // and no less: it does move
@@ -93,16 +93,18 @@ TEST(MovingSurfaces, NothingPassesAtAnySpeed)
   }
 }
 
-//     o->               A moving frame is a still frame seen from elsewhere.
-//   .--.   .--.
-//  (    ) (  o>)
-//   `--'   `--'
-TEST(MovingSurfaces, AMovingFrameIsAStillFrameSeenFromElsewhere)
+namespace
+{
+/// How many of 5000 ticks a god-object of a moving frame lies elsewhere in than that of a still
+/// one.
+int TicksElsewhere(int substeps)
 {
   const auto surface = MakeSurface(Star(4, 0.03, 0.1, 5));
   const auto motion = Standing();
   GodObject still({ surface });
   GodObject moving({ { surface, motion } });
+  still.SetSubstepLimit(substeps);
+  moving.SetSubstepLimit(substeps);
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
   RigidPose pose;
@@ -113,6 +115,7 @@ TEST(MovingSurfaces, AMovingFrameIsAStillFrameSeenFromElsewhere)
   still.Update({ 0, 0, 0.05 });
   moving.Update({ 0, 0, 0.05 });
   int contacts = 0;
+  int elsewhere = 0;
   for (int tick = 0; tick < 5000; ++tick)
   {
     // A stroke over the star, and a motion that turns and drifts at up to 1 m/s.
@@ -129,11 +132,26 @@ TEST(MovingSurfaces, AMovingFrameIsAStillFrameSeenFromElsewhere)
     {
       continue; // the way to the first contact is straight in one frame only
     }
-    ASSERT_LT(Length(b.Position - pose.PointToWorld(a.Position)), 1e-9) << "tick " << tick;
-    ASSERT_LT(Length(b.Displacement - pose.VectorToWorld(a.Displacement)), 1e-9);
+    elsewhere += Length(b.Position - pose.PointToWorld(a.Position)) >= 1e-9 ||
+        Length(b.Displacement - pose.VectorToWorld(a.Displacement)) >= 1e-9
+      ? 1
+      : 0;
     contacts += b.Status == UpdateStatus::Touching;
   }
   EXPECT_GT(contacts, 4900);
+  return elsewhere;
+}
+}
+
+//     o->               A moving frame is a still frame seen from elsewhere.
+//   .--.   .--.
+//  (    ) (  o>)
+//   `--'   `--'
+TEST(MovingSurfaces, AMovingFrameIsAStillFrameSeenFromElsewhere)
+{
+  EXPECT_EQ(TicksElsewhere(1), 0);
+  // In a corner with several ways out roundings may choose: 17 of 60,000 ticks by other seeds.
+  EXPECT_LE(TicksElsewhere(4), 2);
 }
 
 //  \     /      two walls of a valley, each moving on its own: the god-object stays in both
@@ -199,7 +217,7 @@ TEST(MovingSurfaces, SqueezeWithoutForceAndLetGoOnTheSameSide)
   }
 }
 
-TEST(MovingSurfaces, DoNoWorkOnASqueezedHandThatIsToldLater)
+TEST(MovingSurfaces, DoNoWorkOnASqueezedHandThatIsUpdatedLater)
 {
   const auto lid = Standing(Turned({ 1, 0, 0 }, M_PI, { 0, 0, 0.01 }));
   GodObject god({ MakeSurface(Square(0.1, 4)), { MakeSurface(Square(0.1, 4)), lid } });
@@ -210,7 +228,7 @@ TEST(MovingSurfaces, DoNoWorkOnASqueezedHandThatIsToldLater)
   lid->MoveTo(Turned({ 1, 0, 0 }, M_PI, { 0, 0, 0.02 }), 0.0);
   const Contact& contact = TickWith(god, hip);
   EXPECT_EQ(contact.Status, UpdateStatus::Free);
-  EXPECT_EQ(contact.Carried, (Vec3{ 0, 0, 0 }));
+  EXPECT_EQ(contact.SurfaceDisplacement, (Vec3{ 0, 0, 0 }));
 }
 
 TEST(MovingSurfaces, ASqueezedHandThatLeavesBothSurfacesIsFree)

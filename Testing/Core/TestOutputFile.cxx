@@ -1,3 +1,4 @@
+#include "../TemporaryFolder.h"
 #include "haptics/Files/OutputFile.h"
 
 #include <gtest/gtest.h>
@@ -27,14 +28,6 @@ namespace
 class OutputFileTest : public ::testing::Test
 {
 public:
-  void SetUp() override
-  {
-    std::string name = (fs::temp_directory_path() / "OutputFileXXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    this->Folder = name;
-  }
-  void TearDown() override { fs::remove_all(this->Folder); }
-
   std::string Path(const char* name) const { return (this->Folder / name).string(); }
   static void Put(const std::string& name, const std::string& text) { std::ofstream(name) << text; }
   static std::string Text(const std::string& name)
@@ -67,7 +60,8 @@ public:
     return error;
   }
 
-  fs::path Folder;
+  const TemporaryFolder Own;
+  const fs::path Folder = this->Own.Path;
 };
 
 TEST_F(OutputFileTest, IsSeenOnceItIsWholeAndLeavesNothingElse)

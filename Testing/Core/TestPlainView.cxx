@@ -48,8 +48,8 @@ bool IsInPlainView(const GodObject& god, const Vec3& hip)
     for (int k = 0; k < 6; ++k)
     {
       const double angle = 60.0 * Degree * k;
-      const Vec3 beside = 0.001 * Length(way) * (std::cos(angle) * u + std::sin(angle) * v);
-      if (exact.Crosses(from, to + beside))
+      const Vec3 aside = 0.001 * Length(way) * (std::cos(angle) * u + std::sin(angle) * v);
+      if (exact.Crosses(from, to + aside))
       {
         return false;
       }
@@ -173,10 +173,10 @@ TEST(PlainView, AConvexEdgeOfAnyAngleHoldsNothingInTheOpen)
   }
 }
 
-//      -> o            flush: nothing is felt of the seam, be it one surface or several, one part
+//      -> o            flush: the seam does not hold, be it one surface or several, one part
 //  _______|_______     into the other or not, or the one that is slid to a little lower
 //         |  x
-TEST(PlainView, AFlushSeamOfSolidsIsNotFelt)
+TEST(PlainView, AFlushSeamOfSolidsDoesNotHold)
 {
   for (const double overlap : { 0.0, 0.001 })
   {
@@ -204,9 +204,9 @@ TEST(PlainView, AFlushSeamOfSolidsIsNotFelt)
 }
 
 //   ___|____         three parts that meet in a T, and four in a cross: over the point where they
-//      |   x         meet, beside it and along the seams
+//      |   x         meet, next to it and along the seams
 //   ___|____
-TEST(PlainView, WhereThreeOrFourFlushPartsMeetNothingIsFelt)
+TEST(PlainView, WhereThreeOrFourFlushPartsMeetNothingHolds)
 {
   const TriangleMesh half = BoxFrom({ -0.02, -0.02, -0.02 }, { 0, 0.02, 0 });
   const TriangleMesh first = BoxFrom({ 0, -0.02, -0.02 }, { 0.02, 0, 0 });
@@ -228,7 +228,7 @@ TEST(PlainView, WhereThreeOrFourFlushPartsMeetNothingIsFelt)
   }
 }
 
-//  =----o        beside the tip of a needle, however fine it is, the way is free
+//  =----o        next to the tip of a needle, however fine it is, the way is free
 //       x
 TEST(PlainView, ANeedleEndsAtItsTip)
 {
@@ -259,7 +259,7 @@ TEST(PlainView, ANeedleEndsAtItsTip)
 }
 
 // Triangles whose third corner was computed on the edge of the other two: as thin as rounding. A
-// hand whose way goes through one, told by exact arithmetic, is held by it.
+// hand whose way goes through one, found by exact arithmetic, is held by it.
 TEST(PlainView, ATriangleAsThinAsRoundingHoldsWhatGoesThroughIt)
 {
   std::mt19937 random(1);
@@ -383,10 +383,10 @@ TEST(PlainView, ASlitInASheetIsOpenFromTenClearancesOn)
         EXPECT_EQ(god.Update({ 0, 0.1 * scale, 0.05 * side * scale }).Status, UpdateStatus::Free)
           << width << ", scale " << scale;
       }
-      const double beside = 0.5 * width + 0.01;
-      god.Place({ beside * scale, 0.1 * scale, 0.05 * scale });
+      const double aside = 0.5 * width + 0.01;
+      god.Place({ aside * scale, 0.1 * scale, 0.05 * scale });
       EXPECT_EQ(
-        god.Update({ beside * scale, 0.1 * scale, -0.05 * scale }).Status, UpdateStatus::Touching);
+        god.Update({ aside * scale, 0.1 * scale, -0.05 * scale }).Status, UpdateStatus::Touching);
     }
   }
 }
@@ -493,7 +493,7 @@ TEST(PlainView, ASliverAlongAnEdgeHoldsNothing)
         // On either slope; the edge itself is farther away than both.
         const double depth = god.Current().Penetration * std::hypot(1.0, slope);
         EXPECT_NEAR(std::abs(depth - 0.02), slope * std::abs(aside), 1e-9)
-          << "height " << height << ", " << aside << " beside the edge";
+          << "height " << height << ", " << aside << " off the edge";
       }
     }
   }
@@ -587,7 +587,7 @@ TEST(PlainView, AMotionInATrianglesPlaneCrossesNothing)
 }
 
 //    -> o          the same seam in single precision, and while the parts are carried along
-TEST(PlainView, AFlushSeamThatMovesOrIsStoredInSinglePrecisionIsNotFelt)
+TEST(PlainView, AFlushSeamThatMovesOrIsStoredInSinglePrecisionDoesNotHold)
 {
   const auto left = BoxFrom({ -0.02, -0.02, -0.02 }, { 0, 0.02, 0 });
   const auto right = BoxFrom({ 0, -0.01, -0.02 }, { 0.02, 0.01, 0 });
@@ -836,8 +836,8 @@ TEST(PlainView, ANotchInASheetIsOpen)
   }
 }
 
-//   -> o         slivers of all widths among good triangles of one plane are not felt
-TEST(PlainView, SliversAmongGoodTrianglesOfAPlaneAreNotFelt)
+//   -> o         slivers of all widths among good triangles of one plane do not hold
+TEST(PlainView, SliversAmongGoodTrianglesOfAPlaneDoNotHold)
 {
   for (const double width : { 1e-3, 1e-6, 1e-9, 1e-12, 1e-14 })
   {
@@ -866,7 +866,7 @@ TEST(PlainView, SliversAmongGoodTrianglesOfAPlaneAreNotFelt)
 
 //   -> o     ^   a flush seam of two parts that are deformed together, and lets go at its end
 //  _____|_____
-TEST(PlainView, AFlushSeamThatDeformsIsNotFelt)
+TEST(PlainView, AFlushSeamThatDeformsDoesNotHold)
 {
   for (const Side side : { Side::Front, Side::Both })
   {

@@ -48,9 +48,10 @@ TEST(ServoSafety, NoUpdateAllocates)
     MakeSurface(Box(1, 1, 1, 8)), MakeSurface(Soup(500, 0.4, 2), Side::Both),
     MakeSurface(Square(1.0, 4), Side::Both), MakeSurface(Icosphere(6, 1.0)),
     MakeSurface(Square(1.0), Side::Both, EngineKind::BruteForce) };
-  for (const TouchedSurface& surface : surfaces)
+  for (std::size_t i = 0; i < 2 * surfaces.size(); ++i)
   {
-    GodObject god({ surface });
+    GodObject god({ surfaces[i / 2] }, Tip::Ball);
+    god.SetTipRadius(i % 2 == 0 ? 0.0 : 0.03);
     god.Update({ 2, 2, 2 });
     std::mt19937 random(4);
     std::normal_distribution<double> normal;
@@ -86,7 +87,7 @@ TEST(ServoSafety, NoPropertyAllocates)
   values[Property::Stiffness] =
     AtPoints(*surface, [](const Vec3& p) { return 400.0 + 4000.0 * p[0]; });
   values.Shading = true;
-  FeltHand hand(Touchable(surface, values), { 0.06, 0, 0 });
+  MaterialHand hand(Touchable(surface, values), { 0.06, 0, 0 });
   IsCounting = true;
   Allocations = 0;
   for (int tick = 0; tick < 5000; ++tick)
@@ -201,7 +202,7 @@ TEST(ServoSafety, NoPredicateAllocatesOverTheSizesThatASurfaceKeeps)
   long total = 0;
   for (int k = 0; k < 100000; ++k)
   {
-    // In one plane, so that nothing but exact arithmetic tells.
+    // In one plane, so that nothing but exact arithmetic decides.
     const Vector a{ number(), number(), number() };
     const Vector d{ number(), number(), number() };
     IsCounting = true;

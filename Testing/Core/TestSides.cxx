@@ -57,7 +57,7 @@ std::vector<TouchedSurface> Listed(SurfacePointer surface)
 }
 }
 
-TEST(Sides, OfATriangleAreToldAndWhereAllAreAlikeNothingIsKept)
+TEST(Sides, OfATriangleAreReportedAndWhereAllAreAlikeNothingIsStored)
 {
   const auto mixed = MakeSurface(HalfAndHalf(1.0, 2), Side::Front);
   EXPECT_EQ(mixed->TouchedSide(), Side::Mixed);
@@ -105,14 +105,14 @@ TEST(Sides, ThatMakeNoSenseAreRefused)
 }
 
 //      o1     ____
-//     _|_ |  |    |     1, 2: a sheet is felt from above and from below, outside and inside the
+//     _|_ |  |    |     1, 2: a sheet holds from above and from below, outside and inside the
 //     box;
 //     --------------    3: the box only from outside
 //      2  |__|_3__|
 TEST(Sides, EachPartIsTouchedFromItsOwn)
 {
   const auto surface = SheetThroughBox();
-  for (const double x : { 0.005, 0.025 }) // inside the box, beside it
+  for (const double x : { 0.005, 0.025 }) // inside the box, outside it
   {
     for (const double side : { 1.0, -1.0 })
     {
@@ -163,7 +163,8 @@ TEST(Sides, AnEdgeBetweenTwoBelongsToTheOneThatHolds)
 }
 
 // Random ways about a box in which a sheet stands: what is outside stays there, what is over the
-// sheet stays there or comes around its rim; told by closed forms that know nothing of triangles.
+// sheet stays there or comes around its rim; checked by closed forms that know nothing of
+// triangles.
 TEST(Sides, NothingLeaksWhereASheetStandsThroughASolid)
 {
   const auto surface = SheetThroughBox();
@@ -202,7 +203,7 @@ TEST(Sides, NothingLeaksWhereASheetStandsThroughASolid)
 
 //   o         a sheet half of which has only a front sweeps up past a hand that rests, and down
 //  ===---  ^  again: the two-sided half takes it along both times, the other only upwards
-TEST(Sides, OfASurfaceThatDeformsAreKeptToo)
+TEST(Sides, OfASurfaceThatDeformsStay)
 {
   for (const double x : { -0.011, 0.011 })
   {
@@ -235,7 +236,7 @@ TEST(Sides, OfASurfaceThatDeformsAreKeptToo)
   }
 }
 
-// A solid and a sheet in one surface, both built anew: the solid is told by counting, in which the
+// A solid and a sheet in one surface, both built anew: the solid is found by counting, in which the
 // sheet has no part, and the sheet by what it held.
 TEST(Sides, OnlyWhatEnclosesIsCountedWhenASurfaceChanges)
 {
@@ -271,10 +272,10 @@ TEST(Sides, OnlyWhatEnclosesIsCountedWhenASurfaceChanges)
   EXPECT_GT(between.Current().Position[2], 0.0294);
 }
 
-//   |  |___          held from below by a sheet beside a solid, nearer to the solid than to where
+//   |  |___          held from below by a sheet next to a solid, nearer to the solid than to where
 //   the
 //   |__| o           sheet is next
-TEST(Sides, ASolidBesideASheetDoesNotHideThatTheSheetHasPassed)
+TEST(Sides, ASolidNextToASheetDoesNotHideThatTheSheetHasPassed)
 {
   const auto make = [](int cells, double height)
   {

@@ -32,7 +32,7 @@ PropertyValues SoftAndHard(const TriangleSurface& surface, double width)
 }
 
 /// Presses `depth` at `from`, slides to `to`, lets go and comes back above the surface; 0.05 m/s.
-void Loop(FeltHand& hand, double from, double to, double depth)
+void Loop(MaterialHand& hand, double from, double to, double depth)
 {
   const double y = 0.0013;
   const int along = 1 + static_cast<int>(std::abs(to - from) / 5e-5);
@@ -42,9 +42,9 @@ void Loop(FeltHand& hand, double from, double to, double depth)
   hand.MoveStraight({ from, y, 0.001 }, along);
 }
 
-FeltHand HandAbove(TouchedSurface surface, double x)
+MaterialHand HandAbove(TouchedSurface surface, double x)
 {
-  return FeltHand(std::move(surface), { x, 0.0013, 0.001 });
+  return MaterialHand(std::move(surface), { x, 0.0013, 0.001 });
 }
 }
 
@@ -57,8 +57,8 @@ TEST(SurfaceEnergy, S9_AVaryingStiffnessMakesNone)
     for (const double end : { 0.01, -0.01, 0.04 })
     {
       const double depth = 0.005;
-      FeltHand hand = HandAbove(Touchable(table, SoftAndHard(*table, width)), -end);
-      // What the plain spring makes of the same loop: its stiffnesses at the ends tell.
+      MaterialHand hand = HandAbove(Touchable(table, SoftAndHard(*table, width)), -end);
+      // What the plain spring makes of the same loop: by its stiffnesses at the ends.
       Loop(hand, -end, end, depth);
       EXPECT_LE(hand.EnergyOut, NoEnergy) << width << " " << end;
       Loop(hand, -end, end, depth);
@@ -70,7 +70,7 @@ TEST(SurfaceEnergy, S9_AVaryingStiffnessMakesNone)
 TEST(SurfaceEnergy, S9_TheSpringWithoutATankWouldMakeSevenMillijoules)
 {
   const auto table = Table();
-  FeltHand hand = HandAbove(Touchable(table, SoftAndHard(*table, 0.02)), -0.02);
+  MaterialHand hand = HandAbove(Touchable(table, SoftAndHard(*table, 0.02)), -0.02);
   double energy = 0.0;
   Vec3 last{};
   Vec3 place = hand.Hip;
@@ -97,7 +97,7 @@ TEST(SurfaceEnergy, S9_TheSpringWithoutATankWouldMakeSevenMillijoules)
 TEST(SurfaceEnergy, S9_ReachesAStiffnessAgainThatWasThereBefore)
 {
   const auto table = Table();
-  FeltHand hand = HandAbove(Touchable(table, SoftAndHard(*table, 0.02)), 0.02);
+  MaterialHand hand = HandAbove(Touchable(table, SoftAndHard(*table, 0.02)), 0.02);
   hand.MoveStraight({ 0.02, 0.0013, -0.004 }, 80);
   EXPECT_NEAR(hand.Last[2], 800.0 * 0.004, 1e-6);
   hand.MoveStraight({ -0.02, 0.0013, -0.004 }, 400);
@@ -108,14 +108,54 @@ TEST(SurfaceEnergy, S9_ReachesAStiffnessAgainThatWasThereBefore)
   EXPECT_LE(hand.EnergyOut, NoEnergy);
 }
 
-// Friction pays: a rubbing hand feels the hard place soon.
+// On its way down the spring holds more than it will: the hand gets back what it put in at most,
+// however soon and far it goes, and deeper too.
+TEST(SurfaceEnergy, AnExchangeThatSoftensFallsEvenlyAndMakesNone)
+{
+  const auto table = Table();
+  PropertyValues values;
+  values[Property::Damping].Constant = 1e-6; // no plain spring, and none of its own
+  MaterialHand hand(Touchable(table, values), { 0.01, 0.0013, 0.001 }, 800.0);
+  const Vec3 pressed{ 0.01, 0.0013, -0.004 };
+  for (const int ticks : { 1, 3, 10, 40, 99, 150 })
+  {
+    for (const double depth : { 0.004, 0.002, 0.007 })
+    {
+      hand.PlainStiffness = 800.0;
+      hand.MoveStraight({ 0.01, 0.0013, 0.001 }, 10);
+      hand.MoveStraight(pressed, 50);
+      ASSERT_NEAR(hand.Last[2], 800.0 * 0.004, 1e-5);
+      hand.PlainStiffness = 200.0;
+      hand.Force.NoticeExchange(0.1, 0.002, 0.0);
+      hand.MoveStraight({ 0.01, 0.0013, -depth }, ticks);
+      EXPECT_LE(hand.Last[2], 800.0 * depth + 1e-5) << ticks << " " << depth;
+      EXPECT_GE(hand.Last[2], 200.0 * depth - 1e-5) << ticks << " " << depth;
+      hand.MoveStraight({ 0.01, 0.0013, 0.0 }, ticks); // no tick goes through the surface
+      hand.MoveStraight({ 0.01, 0.0013, 0.001 }, 1);
+      EXPECT_EQ(hand.Last[2], 0.0) << "nothing is left outside";
+      EXPECT_LE(hand.EnergyOut, 10.0 * NoEnergy) << ticks << " " << depth;
+    }
+  }
+  hand.PlainStiffness = 800.0;
+  hand.MoveStraight(pressed, 50);
+  hand.PlainStiffness = 200.0;
+  hand.Force.NoticeExchange(0.1, 0.002, 0.0);
+  for (int tick = 1; tick <= 100; ++tick)
+  {
+    const double before = hand.Last[2];
+    EXPECT_NEAR(before - hand.Move(pressed)[2], tick == 1 ? 0.0 : 600.0 * 0.004 / 100.0, 1e-5);
+  }
+  EXPECT_NEAR(hand.Move(pressed)[2], 200.0 * 0.004, 1e-5);
+}
+
+// Friction pays: a rubbing hand meets the hard place soon.
 TEST(SurfaceEnergy, S9_FrictionPaysForARise)
 {
   const auto table = Table();
   PropertyValues values = SoftAndHard(*table, 0.02);
   values[Property::StaticFriction].Constant = 0.5;
   values[Property::DynamicFriction].Constant = 0.4;
-  FeltHand hand = HandAbove(Touchable(table, values), -0.02);
+  MaterialHand hand = HandAbove(Touchable(table, values), -0.02);
   hand.MoveStraight({ -0.02, 0.0013, -0.003 }, 80);
   hand.MoveStraight({ 0.03, 0.0013, -0.003 }, 800);
   EXPECT_NEAR(hand.Last[2], 800.0 * 0.003, 1e-3);
@@ -129,7 +169,7 @@ TEST(SurfaceEnergy, S10_FrictionOnlyTakes)
   const auto table = Table();
   const double depth = 0.004;
   const double push = 500.0 * depth;
-  FeltHand hand = HandAbove(Touchable(table, Rough(0.6, 0.35)), 0.0);
+  MaterialHand hand = HandAbove(Touchable(table, Rough(0.6, 0.35)), 0.0);
   hand.MoveStraight({ 0, 0.0013, -depth }, 100);
   double before = hand.EnergyOut;
   for (int loop = 0; loop < 3; ++loop)
@@ -254,7 +294,7 @@ TEST(SurfaceEnergy, S11_ForceShadingMakesNoneBeyondItsBudget)
   for (const double from : { -0.0024, 0.0, 0.001 })
   {
     const double depth = 0.004;
-    FeltHand hand(Touchable(prism, values), { from, 0.0013, height + 0.001 });
+    MaterialHand hand(Touchable(prism, values), { from, 0.0013, height + 0.001 });
     double naive = 0.0;
     for (int loop = 0; loop < 4; ++loop)
     {
@@ -308,7 +348,7 @@ TEST(SurfaceEnergy, RandomFieldsOnRandomWaysMakeNone)
     values.FeatureAngle = 60.0;
     const double size = field % 3 == 1 ? 0.03 : 0.036; // of the round ones
     const Vec3 start{ 0.0, 0.0, field % 3 == 0 ? 0.01 : 1.2 * size };
-    FeltHand hand(Touchable(surface, values), start);
+    MaterialHand hand(Touchable(surface, values), start);
     hand.Limits.MaximumForce = 3.3;
     for (int loop = 0; loop < 10; ++loop)
     {

@@ -20,9 +20,9 @@ std::shared_ptr<const TriangleSurface> Table(int cells = 10)
   return MakeSurface(Square(0.05, cells));
 }
 
-FeltHand HandOver(const std::shared_ptr<const TriangleSurface>& surface, PropertyValues values)
+MaterialHand HandOver(const std::shared_ptr<const TriangleSurface>& surface, PropertyValues values)
 {
-  return FeltHand(Touchable(surface, std::move(values)), { 0, 0.0013, 0.002 });
+  return MaterialHand(Touchable(surface, std::move(values)), { 0, 0.0013, 0.002 });
 }
 
 /// What rounding may leave of a balance [J]; the loops are of millijoules.
@@ -31,9 +31,9 @@ constexpr double NoEnergy = 1e-12;
 
 TEST(SurfaceForce, IsTheSurfacesStiffnessOrTheServosWhereItHasNone)
 {
-  FeltHand own = HandOver(Table(), Everywhere(320.0, 0, 0, 0, 0));
+  MaterialHand own = HandOver(Table(), Everywhere(320.0, 0, 0, 0, 0));
   EXPECT_NEAR(own.MoveStraight({ 0, 0.0013, -0.004 }, 60)[2], 320.0 * 0.004, 1e-9);
-  FeltHand plain = HandOver(Table(), Everywhere(None, 0, 0, 0, 0));
+  MaterialHand plain = HandOver(Table(), Everywhere(None, 0, 0, 0, 0));
   EXPECT_NEAR(plain.MoveStraight({ 0, 0.0013, -0.004 }, 60)[2], 500.0 * 0.004, 1e-9);
 }
 
@@ -45,7 +45,7 @@ TEST(SurfaceForce, InterpolatesOverTrianglesWhatIsGivenAtPoints)
     AtPoints(*table, [](const Vec3& p) { return 400.0 + 4000.0 * p[0] + 2000.0 * p[1]; });
   for (const double x : { -0.0411, -0.0203, 0.0, 0.0107, 0.0332 })
   {
-    FeltHand hand(Touchable(table, values), { x, 0.0177, 0.001 });
+    MaterialHand hand(Touchable(table, values), { x, 0.0177, 0.001 });
     const double wanted = 400.0 + 4000.0 * x + 2000.0 * 0.0177;
     EXPECT_NEAR(hand.MoveStraight({ x, 0.0177, -0.003 }, 40)[2], 0.003 * wanted, 1e-6) << x;
   }
@@ -66,7 +66,7 @@ TEST(SurfaceForce, IsConstantOverATriangleWhatIsGivenAtTriangles)
   for (const double side : { 1.0, -1.0 })
   {
     const Vec3 over = side * middle; // the other triangle is this one turned about the origin
-    FeltHand hand(Touchable(table, values), over + Vec3{ 0, 0, 0.001 });
+    MaterialHand hand(Touchable(table, values), over + Vec3{ 0, 0, 0.001 });
     EXPECT_NEAR(hand.MoveStraight(over + Vec3{ 0, 0, -0.002 }, 30)[2],
       0.002 * (side > 0.0 ? 200.0 : 600.0), 1e-9);
   }
@@ -74,7 +74,7 @@ TEST(SurfaceForce, IsConstantOverATriangleWhatIsGivenAtTriangles)
 
 TEST(SurfaceForce, NeverAsksForMoreStiffnessThanTheLimit)
 {
-  FeltHand hand = HandOver(Table(), Everywhere(2000.0, 0, 0, 0, 0));
+  MaterialHand hand = HandOver(Table(), Everywhere(2000.0, 0, 0, 0, 0));
   hand.Limits.Stiffness = 700.0;
   EXPECT_NEAR(hand.MoveStraight({ 0, 0.0013, -0.004 }, 60)[2], 700.0 * 0.004, 1e-9);
   EXPECT_TRUE(hand.Force.IsLimited());
@@ -83,7 +83,7 @@ TEST(SurfaceForce, NeverAsksForMoreStiffnessThanTheLimit)
 // Steady motion at 50 mm/s, in and along: after 5 time constants of the filter, B v against it.
 TEST(SurfaceForce, DampsAlongNormalAndTangent)
 {
-  FeltHand hand = HandOver(Table(), Everywhere(500.0, 2.0, 0, 0, 0));
+  MaterialHand hand = HandOver(Table(), Everywhere(500.0, 2.0, 0, 0, 0));
   hand.Move({ -0.02, 0.0013, -0.001 });
   for (int tick = 1; tick <= 60; ++tick)
   {
@@ -93,10 +93,10 @@ TEST(SurfaceForce, DampsAlongNormalAndTangent)
   EXPECT_NEAR(hand.Last[2], 500.0 * 0.004 + 2.0 * 0.05, 1e-4);
 }
 
-// The documented delay: a velocity that grows evenly is told 5 ms late.
+// The documented delay: a velocity that grows evenly is 5 ms late.
 TEST(SurfaceForce, KnowsTheVelocityFiveMillisecondsLate)
 {
-  FeltHand hand = HandOver(Table(), Everywhere(0.0, 2.0, 0, 0, 0));
+  MaterialHand hand = HandOver(Table(), Everywhere(0.0, 2.0, 0, 0, 0));
   hand.Move({ 0, 0.0013, -0.002 });
   const double acceleration = 1.0; // [m/s^2]
   double x = 0.0;
@@ -111,7 +111,7 @@ TEST(SurfaceForce, KnowsTheVelocityFiveMillisecondsLate)
 
 TEST(SurfaceForce, NeverPullsByDampingAndNeverDampsMoreThanTheLimit)
 {
-  FeltHand hand = HandOver(Table(), Everywhere(100.0, 50.0, 0, 0, 0));
+  MaterialHand hand = HandOver(Table(), Everywhere(100.0, 50.0, 0, 0, 0));
   hand.Limits.Damping = 1.5;
   hand.MoveStraight({ 0, 0.0013, -0.010 }, 30);
   for (int tick = 0; tick < 80; ++tick)
@@ -159,7 +159,7 @@ TEST(SurfaceForce, FollowsAForceProfileIncludingTheClickOfAButton)
   values.Profile = ForceProfile::Build(forces, 0.006, error);
   ASSERT_NE(values.Profile, nullptr) << error;
   EXPECT_NEAR(values.Profile->SteepestSlope(), 1200.0, 1e-6);
-  FeltHand hand = HandOver(Table(), values);
+  MaterialHand hand = HandOver(Table(), values);
   hand.MoveStraight({ 0, 0.0013, 0.0 }, 10);
   for (int i = 1; i <= 240; ++i)
   {
@@ -170,7 +170,7 @@ TEST(SurfaceForce, FollowsAForceProfileIncludingTheClickOfAButton)
   hand.MoveStraight({ 0, 0.0013, 0.001 }, 70);
   EXPECT_NEAR(hand.EnergyOut, 0.0, 1e-6) << "a click is no motor";
 
-  FeltHand limited = HandOver(Table(), values);
+  MaterialHand limited = HandOver(Table(), values);
   limited.Limits.Stiffness = 600.0;
   EXPECT_NEAR(limited.MoveStraight({ 0, 0.0013, -0.003 }, 30)[2], 0.75, 1e-9)
     << "all of it is scaled, so that its steepest slope is stable";
@@ -195,7 +195,7 @@ TEST(SurfaceForce, TextureModulatesTheForceWithinItsBounds)
   PropertyValues values;
   values[Property::Texture] =
     AtPoints(*table, [](const Vec3& p) { return 0.2 * std::cos(p[0] * M_PI / 0.002); });
-  FeltHand hand(Touchable(table, values), { 0.0, 0.001, 0.001 });
+  MaterialHand hand(Touchable(table, values), { 0.0, 0.001, 0.001 });
   hand.MoveStraight({ 0.0, 0.001, -0.004 }, 50);
   EXPECT_NEAR(hand.Last[2], 500.0 * 0.004 * 1.2, 1e-5) << "on a crest";
   double least = 10.0;
@@ -230,7 +230,7 @@ TEST(SurfaceForce, TakesTextureFromAnImageThatRepeats)
     { 0.020, 0.0 }, { -0.005, 0.3 }, { 0.0075, -0.15 } };
   for (const auto& [x, texture] : cases)
   {
-    FeltHand hand(Touchable(table, values), { x, 0.001, 0.001 });
+    MaterialHand hand(Touchable(table, values), { x, 0.001, 0.001 });
     EXPECT_NEAR(hand.MoveStraight({ x, 0.001, -0.002 }, 20)[2], 1.0 * (1.0 + texture), 1e-5) << x;
   }
 }

@@ -30,7 +30,7 @@ TEST(RigidPose, TurnsAndMovesPointsThereAndBack)
   EXPECT_LT(Length(pose.PointToSurface(x) - Vec3{ 1, 0, 0 }), 1e-15);
 }
 
-TEST(SurfaceMotion, StandsStillUntilItIsTold)
+TEST(SurfaceMotion, StandsStillUntilItIsSentSomewhere)
 {
   SurfaceMotion motion(TurnedAboutZ(0.3, { 1, 2, 3 }));
   EXPECT_EQ(motion.Advance(Tick), TurnedAboutZ(0.3, { 1, 2, 3 }));

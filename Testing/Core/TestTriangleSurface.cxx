@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
+#include <thread>
+#include <vector>
 
 using namespace haptics;
 using namespace haptics::testing;
@@ -157,4 +160,32 @@ TEST(TriangleSurface, ThatNeverDeformsKeepsNothingForIt)
   // 128 with Embree 3, most of them its own; what a refit needs would be 16 more.
   const auto ball = MakeSurface(Icosphere(5, 1.0), Side::Front, EngineKind::Embree);
   EXPECT_LT(static_cast<double>(ball->MemoryBytes()) / ball->Triangles().size(), 140.0);
+}
+
+TEST(TriangleSurface, ReportsHowFarItsBuildIsAndStopsWhereThatIsAsked)
+{
+  const TriangleMesh mesh = Icosphere(6, 1.0); // 81,920 triangles
+  const std::thread::id builder = std::this_thread::get_id();
+  std::vector<double> fractions;
+  std::string error;
+  ASSERT_TRUE(TriangleSurface::Build(mesh, {}, error,
+    [&](double fraction)
+    {
+      EXPECT_EQ(std::this_thread::get_id(), builder);
+      fractions.push_back(fraction);
+      return true;
+    }));
+  EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+  EXPECT_GE(fractions.front(), 0.0);
+  EXPECT_LE(fractions.back(), 1.0);
+  // By the triangles, by their neighbours, by Embree while it builds, and after it.
+  EXPECT_GT(std::set<double>(fractions.begin(), fractions.end()).size(), 5u);
+
+  for (const double stop : { 0.0, 0.3, 0.6, 0.8 })
+  {
+    EXPECT_FALSE(
+      TriangleSurface::Build(mesh, {}, error, [stop](double fraction) { return fraction < stop; }))
+      << stop;
+    EXPECT_EQ(error, "") << stop;
+  }
 }

@@ -1,4 +1,4 @@
-// What varies over a surface is felt while sliding over it, and makes no energy; and it is felt
+// What varies over a surface gives a force while sliding over it, and makes no energy; and it does
 // against the surface, which may move.
 #include "AnalyticSurfaces.h"
 #include "MaterialTools.h"
@@ -49,7 +49,7 @@ PropertyField AtTriangles(const TriangleSurface& surface, const Function& value)
 }
 
 /// Presses at `from`, and calls `check` at each tick of a stroke to `to` with the force there.
-void Stroke(FeltHand& hand, const Vec3& from, const Vec3& to, double speed,
+void Stroke(MaterialHand& hand, const Vec3& from, const Vec3& to, double speed,
   const std::function<void(const Vec3& place, const Vec3& force)>& check)
 {
   hand.MoveStraight(from + Vec3{ 0, 0, 0.001 }, 50);
@@ -80,7 +80,7 @@ Strokes StrokeEverywhere(const std::shared_ptr<const TriangleSurface>& table,
   for (int i = 0; i < 16; ++i)
   {
     const Vec3 along = Direction(2.0 * M_PI * (i + 0.3) / 16);
-    FeltHand hand(Touchable(table, values), { 0, 0, 0.001 });
+    MaterialHand hand(Touchable(table, values), { 0, 0, 0.001 });
     Stroke(hand, -0.04 * along, 0.04 * along, speed,
       [&](const Vec3& place, const Vec3& force)
       {
@@ -209,7 +209,7 @@ TEST(VaryingMaterial, ForceFollowsWhereThereIsFriction)
   {
     PropertyValues values = Rough(friction, 0.8 * friction);
     values[Property::Stiffness] = AtPoints(*table, stiffness);
-    FeltHand hand(Touchable(table, values), { 0, 0, 0.001 });
+    MaterialHand hand(Touchable(table, values), { 0, 0, 0.001 });
     for (const double way : { 1.0, -1.0 })
     {
       Stroke(hand, { -0.04 * way, 0.0013, 0 }, { 0.04 * way, 0.0013, 0 }, 0.1,
@@ -234,7 +234,7 @@ TEST(VaryingMaterial, AJumpBetweenCellsIsSpreadOverAWidthAndPaid)
     AtTriangles(*table, [](const Vec3& p) { return p[0] < 0.0 ? 200.0 : 800.0; });
   for (const double depth : { 0.001, 0.004 })
   {
-    FeltHand hand(Touchable(table, values), { -0.03, 0.0013, 0.001 });
+    MaterialHand hand(Touchable(table, values), { -0.03, 0.0013, 0.001 });
     hand.MoveStraight({ -0.03, 0.0013, -depth }, 100);
     double reached = HUGE_VAL;
     double last = 200.0 * depth;
@@ -263,7 +263,7 @@ TEST(VaryingMaterial, AJumpBetweenCellsIsSpreadOverAWidthAndPaid)
 namespace
 {
 /// The energy of closed loops: press at `from`, slide to `to`, lift, come back above or below.
-double EnergyOfLoops(FeltHand& hand, const Vec3& from, const Vec3& to, int loops)
+double EnergyOfLoops(MaterialHand& hand, const Vec3& from, const Vec3& to, int loops)
 {
   const Vec3 above{ 0, 0, 0.001 };
   const Vec3 below{ 0, 0, -Depth };
@@ -311,7 +311,7 @@ TEST(VaryingMaterial, LoopsOverEveryPropertyMakeNoEnergy)
             isPerTriangle ? AtTriangles(*table, value) : AtPoints(*table, value);
           values.Profile = hasProfile ? profile : nullptr;
           values.Shading = isShaded;
-          FeltHand hand(Touchable(table, values), { 0, 0, 0.001 });
+          MaterialHand hand(Touchable(table, values), { 0, 0, 0.001 });
           for (int way = 0; way < 4; ++way)
           {
             const Vec3 along = Direction(way * 0.9 + 0.2);
@@ -335,10 +335,10 @@ TEST(VaryingMaterial, WhatWasRubbedBeforeIsForgotten)
   values[Property::DynamicFriction] = values[Property::StaticFriction];
   values[Property::Stiffness] =
     AtTriangles(*table, [](const Vec3& p) { return p[0] > 0.02 ? 900.0 : 150.0; });
-  std::vector<Vec3> felt[2];
+  std::vector<Vec3> forces[2];
   for (const int rubbing : { 0, 1 })
   {
-    FeltHand hand(Touchable(table, values), { -0.045, 0, 0.001 });
+    MaterialHand hand(Touchable(table, values), { -0.045, 0, 0.001 });
     hand.MoveStraight({ -0.045, 0, -Depth }, 100);
     for (int tick = 0; tick < rubbing * 20000; ++tick)
     {
@@ -358,26 +358,26 @@ TEST(VaryingMaterial, WhatWasRubbedBeforeIsForgotten)
         const Vec3 from = hand.Hip;
         for (int i = 1; i <= 150; ++i)
         {
-          felt[rubbing].push_back(hand.Move(from + (i / 150.0) * (corner - from)));
+          forces[rubbing].push_back(hand.Move(from + (i / 150.0) * (corner - from)));
         }
       }
       EXPECT_LE(hand.EnergyOut - before, 1e-6) << "loop " << loop << ", rubbed " << rubbing;
     }
   }
-  ASSERT_EQ(felt[0].size(), felt[1].size());
-  for (std::size_t i = 0; i < felt[0].size(); ++i)
+  ASSERT_EQ(forces[0].size(), forces[1].size());
+  for (std::size_t i = 0; i < forces[0].size(); ++i)
   {
-    ASSERT_LT(Length(felt[0][i] - felt[1][i]), 0.01) << "tick " << i;
+    ASSERT_LT(Length(forces[0][i] - forces[1][i]), 0.01) << "tick " << i;
   }
 }
 
 namespace
 {
-/// A hand and a table that may move, both as told.
+/// A hand and a table that may move, both as asked for.
 struct MovingBench
 {
   std::shared_ptr<SurfaceMotion> Motion = std::make_shared<SurfaceMotion>(RigidPose());
-  FeltHand Hand;
+  MaterialHand Hand;
 
   explicit MovingBench(PropertyValues values)
     : Hand(Make(std::move(values), this->Motion), { 0, 0.0013, 0.002 })

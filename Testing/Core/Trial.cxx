@@ -42,10 +42,10 @@ TrialCount& TrialCount::operator+=(const TrialCount& other)
   return *this;
 }
 
-GodObjectFollower::GodObjectFollower(std::vector<TouchedSurface> surfaces, int pieceLimit)
+GodObjectFollower::GodObjectFollower(std::vector<TouchedSurface> surfaces, int substepLimit)
   : Point(std::move(surfaces))
 {
-  this->Point.SetPieceLimit(pieceLimit);
+  this->Point.SetSubstepLimit(substepLimit);
 }
 
 Vec3 GodObjectFollower::Place(const Vec3& position)

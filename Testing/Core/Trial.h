@@ -31,7 +31,8 @@ public:
 class GodObjectFollower : public Follower
 {
 public:
-  explicit GodObjectFollower(std::vector<TouchedSurface> surfaces, int pieceLimit = 1);
+  explicit GodObjectFollower(
+    std::vector<TouchedSurface> surfaces, int substepLimit = GodObject::DefaultSubstepLimit);
   Vec3 Place(const Vec3& position) override;
   const std::vector<Vec3>& Follow(const Vec3& hip, Vec3& goal) override;
   bool Answers() const override;

@@ -193,7 +193,7 @@ TEST(DiscontinuousData, HoldsForEveryKindOfCell)
 }
 
 // A material that an array drives is each cell's own up to the seam.
-TEST(DiscontinuousData, IsFeltAsEachCellHasIt)
+TEST(DiscontinuousData, ActsAsEachCellHasIt)
 {
   for (const double x : { -0.9, -0.5, -0.1, -0.001, 0.001, 0.1, 0.435, 0.9 })
   {

@@ -126,6 +126,71 @@ TEST(GodObjectFilter, CarriesCellDataThroughMixedCells)
   EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 4) << "verts and lines stay out";
 }
 
+/// Such arrays have no memory for point ids.
+TEST(GodObjectFilter, LeavesOutCellsWithoutPoints)
+{
+  for (const bool is64Bit : { false, true })
+  {
+    vtkNew<vtkCellArray> polys;
+    is64Bit ? polys->Use64BitStorage() : polys->Use32BitStorage();
+    polys->InsertNextCell(0);
+    polys->InsertNextCell(0);
+    Parts parts = Square;
+    parts.Polys.clear();
+    parts.Strips = { { 0, 1, 3, 2 } };
+    auto input = MakePolyData(parts);
+    input->SetPolys(polys);
+    auto filter = Prepare(input);
+    EXPECT_EQ(
+      Ids(filter->GetOutput()->GetCellData(), "OriginalCellId"), (std::vector<vtkIdType>{ 2, 2 }));
+  }
+}
+
+/// Many enough for several threads: triangles, quads and pentagons, with cells of 32 bits and of
+/// 64, and a strip after them.
+TEST(GodObjectFilter, KeepsTheOrderOfManyCells)
+{
+  for (const bool is64Bit : { false, true })
+  {
+    constexpr int rows = 60000;
+    vtkNew<vtkPoints> points;
+    points->SetDataType(VTK_DOUBLE);
+    vtkNew<vtkCellArray> polys;
+    is64Bit ? polys->Use64BitStorage() : polys->Use32BitStorage();
+    std::vector<vtkIdType> expected;
+    for (int i = 0; i < rows; ++i)
+    {
+      const int corners = 3 + i % 3;
+      polys->InsertNextCell(corners);
+      for (int k = 0; k < corners; ++k)
+      {
+        const double angle = 2.0 * 3.14159265358979 * k / corners;
+        polys->InsertCellPoint(
+          points->InsertNextPoint(3.0 * i + std::cos(angle), std::sin(angle), 0.0));
+      }
+      expected.insert(expected.end(), static_cast<std::size_t>(corners - 2), i);
+    }
+    vtkNew<vtkCellArray> strips;
+    strips->InsertNextCell({ 0, 1, 2, 3 });
+    expected.insert(expected.end(), 2, rows);
+    vtkNew<vtkPolyData> input;
+    input->SetPoints(points);
+    input->SetPolys(polys);
+    input->SetStrips(strips);
+    vtkNew<vtkGodObjectFilter> filter;
+    filter->SetInputData(input);
+    filter->Update();
+    auto* const cells =
+      vtkIdTypeArray::SafeDownCast(filter->GetOutput()->GetCellData()->GetArray("OriginalCellId"));
+    ASSERT_NE(cells, nullptr);
+    // The strip's first triangle is the first polygon again.
+    expected.pop_back();
+    ASSERT_EQ(cells->GetNumberOfValues(), static_cast<vtkIdType>(expected.size()));
+    EXPECT_TRUE(std::equal(expected.begin(), expected.end(), cells->GetPointer(0)));
+    EXPECT_EQ(filter->GetNumberOfDuplicateTriangles(), 1);
+  }
+}
+
 TEST(GodObjectFilter, CarriesPointDataThroughMergedAndUnusedPoints)
 {
   Parts parts = Square;
@@ -288,7 +353,7 @@ TEST(GodObjectFilter, DropsDuplicatesButKeepsTheOtherSide)
     Ids(filter->GetOutput()->GetCellData(), "OriginalCellId"), (std::vector<vtkIdType>{ 0, 2, 3 }));
 }
 
-TEST(GodObjectFilter, TellsOfPolygonsThatCrossThemselves)
+TEST(GodObjectFilter, ReportsPolygonsThatCrossThemselves)
 {
   Parts parts = Square;
   parts.Polys = { { 0, 1, 2, 3 }, { 0, 2, 1, 3 } };
@@ -353,7 +418,7 @@ TEST(GodObjectFilter, LeavesOutArraysThatAreTooShort)
 }
 
 // A terrain of 2 m at UTM coordinates, in the single precision of a reader.
-TEST(GodObjectFilter, TellsOfTrianglesThatSinglePrecisionHasCollapsed)
+TEST(GodObjectFilter, ReportsTrianglesThatSinglePrecisionHasCollapsed)
 {
   const int n = 20;
   for (const bool isSingle : { true, false })
@@ -384,7 +449,7 @@ TEST(GodObjectFilter, TellsOfTrianglesThatSinglePrecisionHasCollapsed)
     const std::string lost = std::to_string(filter->GetNumberOfDegenerateTriangles()) + " of ";
     EXPECT_EQ(messages.Warnings().find(lost) != std::string::npos, isSingle) << messages.Warnings();
     EXPECT_EQ(messages.Warnings().find("float64") != std::string::npos, isSingle);
-    // The way out that is told of: an offset, subtracted where the points still are float64.
+    // The way out that is given: an offset, subtracted where the points still are float64.
     for (vtkIdType i = 0; isSingle && i < n * n; ++i)
     {
       points->SetPoint(

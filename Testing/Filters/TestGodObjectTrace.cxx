@@ -1,3 +1,4 @@
+#include "../TemporaryFolder.h"
 #include "FilterTesting.h"
 
 #include "vtkCellData.h"
@@ -19,7 +20,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <limits>
 #include <sstream>
@@ -226,7 +226,7 @@ TEST_F(PlaneInMillimetres, IsReportedOnceWithARemedyThatHelps)
   EXPECT_EQ(messages.Warnings(), warning + warning);
 }
 
-TEST_F(PlaneInMillimetres, IsToldToBeTooSmallInMicrometres)
+TEST_F(PlaneInMillimetres, IsReportedAsTooSmallInMicrometres)
 {
   MessageCatcher messages(this->Trace);
   this->Trace->SetUnitLength(1e-6);
@@ -281,7 +281,8 @@ TEST_F(PlaneInMillimetres, IsWrittenAsATable)
 {
   this->Trace->SetUnitLength(0.001);
   MessageCatcher messages(this->Trace);
-  const std::string file = ::testing::TempDir() + "trace.csv";
+  const TemporaryFolder folder;
+  const std::string file = folder.File("trace.csv");
   EXPECT_FALSE(this->Trace->WriteCSV(file.c_str())) << "there is none yet";
   EXPECT_NE(messages.Errors().find("Update()"), std::string::npos) << messages.Errors();
   this->Force(); // the remedy
@@ -303,11 +304,10 @@ TEST_F(PlaneInMillimetres, IsWrittenAsATable)
   { return std::count(line.begin(), line.end(), ','); };
   EXPECT_EQ(fields(names), fields(pressed));
 
-  EXPECT_FALSE(this->Trace->WriteCSV((::testing::TempDir() + "no folder/trace.csv").c_str()));
+  EXPECT_FALSE(this->Trace->WriteCSV(folder.File("no folder/trace.csv").c_str()));
   EXPECT_NE(messages.Errors().find("Make its folder first"), std::string::npos);
   EXPECT_FALSE(this->Trace->WriteCSV(nullptr));
   EXPECT_FALSE(this->Trace->WriteCSV(""));
-  std::remove(file.c_str());
 }
 
 TEST(GodObjectTrace, TextsOfATableAreQuoted)
@@ -322,7 +322,8 @@ TEST(GodObjectTrace, TextsOfATableAreQuoted)
   trace->SetInputData(path);
   trace->SetSurfaceData(Plane());
   trace->Update();
-  const std::string file = ::testing::TempDir() + "texts.csv";
+  const TemporaryFolder folder;
+  const std::string file = folder.File("texts.csv");
   ASSERT_TRUE(trace->WriteCSV(file.c_str()));
   std::stringstream text;
   text << std::ifstream(file).rdbuf();
@@ -330,7 +331,6 @@ TEST(GodObjectTrace, TextsOfATableAreQuoted)
   {
     EXPECT_NE(text.str().find(field), std::string::npos) << text.str();
   }
-  std::remove(file.c_str());
 }
 
 TEST(GodObjectTrace, PassesThePointDataOfThePath)
@@ -372,7 +372,7 @@ TEST(GodObjectTrace, GivesTheSameBitsTwice)
 
 TEST(GodObjectTrace, UsesTheSurfaceOfAGodObjectFilterAsItIs)
 {
-  // From below, so that only Both is felt.
+  // From below, so that only Both holds.
   std::vector<Point> positions;
   AddLine(positions, { 0.5, 0, -0.1 }, { 0.5, 0, 0.1 }, 20);
   vtkNew<vtkGodObjectFilter> filter;
@@ -561,7 +561,7 @@ TEST(GodObjectTrace, RefusesWhatThePreparationBeforeItRefuses)
   EXPECT_EQ(trace->GetOutput()->GetNumberOfPoints(), 2);
 }
 
-TEST(GodObjectTrace, CarriesWhatIsTouched)
+TEST(GodObjectTrace, HasTheArraysOfWhatIsTouched)
 {
   auto plane = Plane();
   vtkNew<vtkDoubleArray> heat; // 1 + x + 2 y, which is linear: interpolated exactly

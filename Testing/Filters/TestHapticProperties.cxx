@@ -1,4 +1,4 @@
-// From data arrays to how a surface feels: mappings, and what is done about bad data.
+// From data arrays to the material of a surface: mappings, and what is done about bad data.
 #include "FilterTesting.h"
 
 #include "vtkGodObjectFilter.h"
@@ -274,7 +274,7 @@ TEST(HapticProperties, TheButtonClicks)
   const auto filter = FilterOf(Table());
   filter->GetProperties()->SetForceProfileToButton(600.0, 0.003, 0.3);
   EXPECT_NEAR(PressOn(filter, 0.011, 0.007, 0.002), 1.2, 1e-6);
-  EXPECT_NEAR(PressOn(filter, 0.011, 0.007, 0.003), 1.8, 0.02) << "a node may lie beside it";
+  EXPECT_NEAR(PressOn(filter, 0.011, 0.007, 0.003), 1.8, 0.02) << "a node may lie next to it";
   EXPECT_NEAR(PressOn(filter, 0.011, 0.007, 0.0033), 0.3 * 1.8, 0.03);
   EXPECT_NEAR(PressOn(filter, 0.011, 0.007, 0.005), 0.3 * 1.8 + 600.0 * 0.0017, 0.02);
 }

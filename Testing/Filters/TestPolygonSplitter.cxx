@@ -192,7 +192,7 @@ TEST(PolygonSplitter, SplitsANonPlanarQuadAlongItsShorterDiagonal)
   }
 }
 
-TEST(PolygonSplitter, TellsOfAPolygonThatCrossesItself)
+TEST(PolygonSplitter, ReportsAPolygonThatCrossesItself)
 {
   PolygonSplitter splitter;
   EXPECT_EQ(splitter.Split({ { 0, 0, 0 }, { 2, 2, 0 }, { 2, 0, 0 }, { 0, 2, 0 } }),

@@ -46,7 +46,7 @@ TEST(SurfaceProperties, AutomaticSideIsFrontOnlyWhereThereIsAnOutside)
   EXPECT_EQ(AutomaticSide(InsideOut()), vtkGodObjectFilter::BOTH);
 }
 
-TEST(SurfaceProperties, AChosenSideIsKept)
+TEST(SurfaceProperties, AChosenSideStays)
 {
   vtkNew<vtkGodObjectFilter> filter;
   filter->SetInputData(MakePolyData(Open()));
@@ -101,7 +101,7 @@ TEST(SurfaceProperties, ValuesOutOfRangeAreClamped)
   EXPECT_EQ(filter->GetMergeTolerance(), 0.0);
 }
 
-TEST(SurfaceProperties, PrintTellsWhatWasBuilt)
+TEST(SurfaceProperties, PrintShowsWhatWasBuilt)
 {
   vtkNew<vtkGodObjectFilter> filter;
   filter->SetInputData(MakePolyData(Cube()));

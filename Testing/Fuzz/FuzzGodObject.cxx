@@ -1,4 +1,5 @@
-// Any surfaces, any path: every piece of the way is checked with exact arithmetic.
+// Any surfaces, any path, a point or a ball: every piece of the way is checked with exact
+// arithmetic.
 #include "ExactQueries.h"
 #include "FuzzInput.h"
 #include "haptics/Contact/GodObject.h"
@@ -172,7 +173,8 @@ public:
     Require(contact.Status != UpdateStatus::Overloaded, "few triangles are no overload");
     Require(contact.Status != UpdateStatus::Free || contact.Displacement == Vec3{},
       "free means at the HIP");
-    this->CheckWay(god, Difference(hip, god.WayOrigin()));
+    Require(god.BallRadius() >= 0.0 && god.BallRadius() <= god.TipRadius(), "no ball is too large");
+    this->CheckWay(god, Difference(hip, god.WayOrigin()), Length(contact.SurfaceDisplacement));
   }
 
 private:
@@ -183,7 +185,8 @@ private:
       ToVector(Difference(x, this->Offsets[k])), NegligibleShare * this->Radii[k]));
   }
 
-  void CheckWay(const GodObject& god, const Vec3& goal)
+  /// `carried`: by surfaces, or by a ball that grows.
+  void CheckWay(const GodObject& god, const Vec3& goal, double carried)
   {
     int corners = 0;
     const Vec3* const way = god.Way(corners);
@@ -203,7 +206,7 @@ private:
     }
     const Vec3& now = way[corners - 1];
     const double before = Length(Difference(way[0], goal));
-    Require(Length(Difference(now, goal)) <= before * (1.0 + 1e-9) + 1e-12 * this->Reach,
+    Require(Length(Difference(now, goal)) <= before * (1.0 + 1e-9) + 1e-12 * this->Reach + carried,
       "the god-object never moves away from the HIP");
     this->Before = now;
     this->HasBefore = true;
@@ -233,17 +236,24 @@ void TestOneInput(FuzzInput& input)
   {
     return;
   }
-  GodObject god(surfaces);
+  const bool isBall = input.Choice(2) == 1;
+  GodObject god(surfaces, isBall ? Tip::Ball : Tip::Point);
+  god.SetTipRadius(isBall ? input.Coordinate() : 0.0);
   Checker checker(surfaces);
   Vec3 hip{};
   for (int tick = 0; tick < 64 && !input.IsEmpty(); ++tick)
   {
     hip = NextHip(input, IsFinite(hip) ? hip : Vec3{});
+    if (isBall && input.Choice(16) == 15)
+    {
+      god.SetTipRadius(input.AnyNumber());
+    }
     const Contact& contact = god.Update(hip);
     if (IsPrinting())
     {
       Print("hip", hip);
       Print("  god-object", contact.Position);
+      std::fprintf(stderr, "  tip %.17g, ball %.17g\n", god.TipRadius(), god.BallRadius());
     }
     checker.Check(god, hip, contact);
   }

@@ -21,9 +21,10 @@ from vtkmodules.vtkFiltersCore import vtkProbeFilter
 from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
 
 FRAME = 33  # ticks between two pictures
-DELAY = 3  # frames, 0.1 s: a surface that deforms is after them where it was told to be
+DELAY = 3  # frames, 0.1 s: a surface that deforms is after them where it was sent
 SCALE = 200.0  # world units a metre of the device
 STIFFNESS = 400.0
+PATCH_RADIUS = 3.0  # [world unit]: a patch is a small part of what is touched
 
 
 class Change:
@@ -50,8 +51,8 @@ class Change:
         write_points(file, [self.path(second) for second in seconds], seconds)
 
 
-class Felt:
-    """What a hand felt while a surface changed: one value a tick."""
+class Ticks:
+    """What a hand met while a surface changed: one value a tick."""
 
     def __init__(self, change, hand, complaints):
         self.arrays = trace_arrays(hand)
@@ -60,7 +61,7 @@ class Felt:
         self.place = change.field(self.arrays["GodObject"])
         self.force_steps = force_steps(self.arrays["Force"])
         self.force_growth = np.diff(np.linalg.norm(self.arrays["Force"], axis=1))
-        preparation = hand.vtk.GetSurfaceFilter(hand.vtk.GetSurfaceId(0))
+        preparation = hand.vtk.GetSurfaceFilter(hand.vtk.GetSurfaces().GetId(0))
         self.builds = preparation.GetNumberOfBuilds()
         self.complaints = complaints
 
@@ -84,7 +85,7 @@ def level_range(change):
 
 
 @contextlib.contextmanager
-def touched(change, remote=False):
+def touched(change, remote=False, in_patches=False):
     """A hand on a change, in a view of its own: hand, source, and a list of what it complains of."""
     view = simple.CreateView("RenderView")
     view.ViewSize = [300, 200]
@@ -100,7 +101,9 @@ def touched(change, remote=False):
                  for event in ("ErrorEvent", "WarningEvent")]
     try:
         hand.set(Device=file, Stiffness=STIFFNESS, Side="Automatic", RecordTrace=0)
-        hand.touch(proxies[0], view)
+        display = hand.touch(proxies[0], view)
+        if in_patches:
+            display.PatchThreshold, display.PatchRadius = 0, PATCH_RADIUS
         hand.WorkspaceTransform = np.diag([SCALE, SCALE, SCALE, 1.0]).ravel().tolist()
         hand.RecordTrace = 1
         yield hand, proxies[0], complaints
@@ -123,9 +126,9 @@ def _listener(complaints):
     return listen
 
 
-def feel(change, remote=False):
-    """What a hand feels of a change, in virtual time."""
-    with touched(change, remote) as (hand, source, complaints):
+def follow(change, remote=False, in_patches=False):
+    """What a hand meets of a change, in virtual time."""
+    with touched(change, remote, in_patches) as (hand, source, complaints):
 
         def on_frame():
             try:
@@ -135,7 +138,7 @@ def feel(change, remote=False):
 
         on_frame()
         change.drive(source, on_frame)
-        return Felt(change, hand, complaints)
+        return Ticks(change, hand, complaints)
 
 
 # --- drives ---------------------------------------------------------------------------------------
@@ -289,7 +292,7 @@ def circle(height, seconds):
 
 def dip(seconds):
     """Down onto the contours below and off them again, three times. It is off where they are empty:
-    an open surface that appears around a hand cannot tell it on which side to be."""
+    around a hand that an open surface appears at there is no side that it was on."""
     outside, inside = 13.0, 6.2
     frames = [0, 3, 6, 8, 22, 24, 26, 40, 42]
     heights = [outside, inside, inside, outside, inside, inside, outside, inside, inside]

@@ -85,7 +85,7 @@ class TestFilters(unittest.TestCase):
         self.assertGreater(arrays["Force"].GetTuple(700)[2], 0.0)
 
     def test_a_trace_uses_the_side_of_the_surface_filter(self):
-        # From inside the sphere: only Both is felt there.
+        # From inside the sphere: only Both holds there.
         path = self.make("Line", Point1=[0, 0, 0.5], Point2=[0, 0, 1.1], Resolution=100)
         sphere = self.make("Sphere", Radius=1.0)
         surface = self.make("GodObjectFilter", Input=sphere)
@@ -119,7 +119,7 @@ class TestFilters(unittest.TestCase):
         self.assertAlmostEqual(force(), 250.0 * 0.003, 5)
 
     def test_an_array_chooses_the_side_of_each_cell(self):
-        # Two balls in one surface: one felt from its front, the other from within too.
+        # Two balls in one surface: one touched from its front, the other from within too.
         balls = [self.make("Sphere", Center=[x, 0, 0], Radius=1.0) for x in (0.0, 5.0)]
         parts = [self.make("Calculator", Input=ball, ResultArrayName="sides", Function=str(i),
                            AttributeType="Cell Data") for i, ball in enumerate(balls)]

@@ -9,6 +9,16 @@ from paraview import simple
 
 
 class TestHapticScene(SceneTest):
+    def test_what_the_view_says_names_the_cell_of_the_source(self):
+        box = self.make("Box")  # whose quadrilaterals become two triangles each
+        self.touch(box)
+        self.hand.step(1200)
+        self.assertEqual(self.hand.Touching, 1)
+        text = self.hand.vtk.GetProbe().GetText()
+        self.assertIn(f"cell {self.hand.TouchedCell}\n", text)
+        self.assertLess(self.hand.TouchedCell, 6)
+        self.assertNotIn("vtkOriginal", text)
+
     def test_a_simulated_hand_strokes_what_is_shown(self):
         self.touch(self.make("Sphere", Radius=2.0, ThetaResolution=48, PhiResolution=48))
         self.hand.step(1500)
@@ -21,12 +31,26 @@ class TestHapticScene(SceneTest):
         self.assertIn("Normals", list(self.hand.ProbedValues))
         self.assertGreaterEqual(self.hand.TouchedCell, 0)
 
+    def test_the_parts_have_proxies_whose_properties_are_those_of_the_scene_too(self):
+        self.touch(self.make("Sphere"))
+        scene = self.hand.proxy.SMProxy
+        for part, name in (("Picture", "ShowTrail"), ("Readings", "Touching"), ("Records", "RecordTrace"),
+                           ("Workspace", "WorkspaceTransform")):
+            self.assertEqual(scene.GetProperty(name).GetParent().GetXMLName(), "Haptic" + part)
+        trail = self.hand.picture.GetGodObjectActor()
+        self.assertFalse(trail.GetShowTrail())
+        scene.GetProperty("ShowTrail").GetParent().GetProperty("ShowTrail").SetElement(0, 1)
+        scene.UpdateVTKObjects()
+        self.assertEqual((self.hand.ShowTrail, trail.GetShowTrail()), (1, True))
+        self.hand.ShowTrail = 0
+        self.assertFalse(trail.GetShowTrail())
+
     def test_surfaces_are_named_as_the_pipeline_browser_does(self):
         display = self.touch(self.make("Sphere", registrationName="Femur"))
         self.hand.step(1500)
         scene = self.hand.vtk
-        surface = scene.GetSurfaceId(0)
-        self.assertEqual(scene.GetSurfaceName(surface), "Femur")
+        surface = scene.GetSurfaces().GetId(0)
+        self.assertEqual(scene.GetSurfaces().GetName(surface), "Femur")
         probe = scene.GetProbe()
         self.assertEqual(probe.GetSurfaceName(), "Femur")
         display.Scale = [1.0, 0.0, 1.0]
@@ -35,7 +59,7 @@ class TestHapticScene(SceneTest):
             self.hand.step(1)
         display.Scale = [1.0, 1.0, 1.0]
         simple.RenameSource("Tibia", self.made[0])
-        self.assertEqual(scene.GetSurfaceName(surface), "Tibia")
+        self.assertEqual(scene.GetSurfaces().GetName(surface), "Tibia")
 
     def test_what_is_hidden_or_not_touchable_is_not_touched(self):
         display = self.touch(self.make("Sphere"))
@@ -227,7 +251,7 @@ self.GetOutput().ShallowCopy(sphere.GetOutput())"""
         self.hand.vtk.RemoveObserver(ended)
         self.assertEqual(lost, [])
 
-    def test_both_sides_are_felt_where_that_is_asked_for(self):
+    def test_both_sides_are_touched_where_that_is_asked_for(self):
         sphere = self.make("Sphere", ThetaResolution=32, PhiResolution=32)
         self.touch(sphere)
         file = "TestHapticScene_inside.vtp"
@@ -243,23 +267,23 @@ self.GetOutput().ShallowCopy(sphere.GetOutput())"""
         self.hand.RecordTrace = 1
         self.hand.step(1500)
         write_path(self.hand, "TestHapticScene_path.vtp")
-        felt = []
+        strokes = []
         for _ in range(2):
             self.hand.set(Device="none")
             self.hand.set(Device="TestHapticScene_path.vtp", RecordTrace=0)
             self.hand.RecordTrace = 1
             self.hand.step(1500)
-            felt.append(trace_arrays(self.hand))
-        self.assertGreater((felt[0]["ActiveConstraints"] > 0).sum(), 500)
-        for name in felt[0]:
-            np.testing.assert_array_equal(felt[0][name], felt[1][name], name)
+            strokes.append(trace_arrays(self.hand))
+        self.assertGreater((strokes[0]["ActiveConstraints"] > 0).sum(), 500)
+        for name in strokes[0]:
+            np.testing.assert_array_equal(strokes[0][name], strokes[1][name], name)
 
     def test_landmarks_and_trace_become_sources(self):
         self.touch(self.make("Sphere"))
         self.hand.RecordTrace = 1
-        self.hand.step(1500)
+        ticks = self.step_to_contact(1500)
         self.hand.drop_landmark()
-        self.hand.step(300)
+        ticks += self.step_to_contact(300)
         self.hand.drop_landmark()
         self.assertEqual(self.hand.NumberOfLandmarks, 2)
         landmarks, trace = self.hand.landmark_source(), self.hand.trace_source()
@@ -268,7 +292,7 @@ self.GetOutput().ShallowCopy(sphere.GetOutput())"""
         trace.UpdatePipeline()
         self.assertEqual(landmarks.GetDataInformation().GetNumberOfPoints(), 2)
         self.assertIn("DistanceToPrevious", landmarks.PointData.keys())
-        self.assertEqual(trace.GetDataInformation().GetNumberOfPoints(), 1800)
+        self.assertEqual(trace.GetDataInformation().GetNumberOfPoints(), ticks)
         self.assertIn("Force", trace.PointData.keys())
         self.hand.proxy.InvokeCommand("RemoveLastLandmark")
         self.assertEqual(self.hand.NumberOfLandmarks, 1)
@@ -278,7 +302,7 @@ self.GetOutput().ShallowCopy(sphere.GetOutput())"""
     def test_landmarks_have_numbers_and_distances_and_outlive_the_hand(self):
         self.touch(self.make("Sphere", ThetaResolution=48, PhiResolution=48))
         for _ in range(2):
-            self.hand.step(1500)
+            self.step_to_contact(1500)
             self.hand.drop_landmark()
         straight = self.hand.vtk.GetLandmarks().GetStraightDistance(0, 1)
         along = self.hand.vtk.GetLandmarks().GetGeodesicDistance(0, 1)

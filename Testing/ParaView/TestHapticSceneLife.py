@@ -6,6 +6,10 @@ import subprocess
 import numpy as np
 from HapticSceneTesting import PLUGIN, PVPYTHON, SceneTest, haptics, main, trace_arrays
 from paraview import simple
+from vtkmodules.vtkCommonCore import vtkStringArray
+
+from vtkhaptics import vtkHapticDevice
+
 
 class TestHapticSceneLife(SceneTest):
     def engage(self):
@@ -85,33 +89,82 @@ class TestHapticSceneLife(SceneTest):
             with self.assertRaisesRegex(ValueError, name):
                 setattr(self.hand, name, value)
             self.assertEqual(getattr(self.hand, name), before)
+        for error, values in (
+            (ValueError, dict(Side="Nope")), (ValueError, dict(Side=7)), (ValueError, dict(Stiffness="hard")),
+            (ValueError, dict(ShowForce=2)), (ValueError, dict(LandmarkDistance=9)), (ValueError, dict(Step=0)),
+            (ValueError, dict(ScaleWorkspace=-1)), (ValueError, dict(WorkspaceTransform=[1.0] * 16)),
+            (ValueError, dict(WorkspaceTransform=[1.0] * 3)), (ValueError, dict(Clutched=0.5)),
+            (TypeError, dict(Stiffness=None)), (TypeError, dict(Device=3)), (TypeError, dict(RecordingFileName=4)),
+            (TypeError, dict(View=3)), (TypeError, dict(Surfaces=[3])),
+            (AttributeError, dict(Force=[1, 2, 3])), (AttributeError, dict(Fit=1)),
+        ):
+            (name, value), = values.items()
+            before = None if name in ("Step", "ScaleWorkspace", "Fit", "Surfaces", "View") else getattr(self.hand, name)
+            with self.assertRaisesRegex(error, name, msg=values):
+                self.hand.set(**values)
+            if before is not None:
+                self.assertEqual(list(before) if hasattr(before, "__iter__") else before,
+                                 list(getattr(self.hand, name)) if hasattr(before, "__iter__")
+                                 else getattr(self.hand, name), values)
         with self.assertRaisesRegex(AttributeError, "no Hardness; it has .*Stiffness"):
             self.hand.set(Hardness=1)
         with self.assertRaisesRegex(haptics.HapticsError, "'Sphere1' is no source.*FindSource"):
             self.hand.touch("Sphere1")
 
-    def test_help_describes_every_property(self):
+    def test_a_constant_of_a_surface_that_is_out_of_range_raises_before_it_is_touched(self):
+        display = self.touch(self.make("Sphere"))
+        display.HapticProperties.Stiffness = -5.0
+        for start in (lambda: self.hand.step(10), self.hand.engage):
+            with self.assertRaisesRegex(ValueError, "HapticProperties.Stiffness of Sphere: -5.0 is less than 0"):
+                start()
+        display.HapticProperties.Stiffness = 300.0
+        self.hand.step(10)
+
+    def test_every_name_of_the_device_chooser_is_a_device(self):
+        names, titles = vtkStringArray(), vtkStringArray()
+        vtkHapticDevice.GetKnownNames(names, titles)
+        known = [names.GetValue(i) for i in range(names.GetNumberOfValues())]
+        self.assertGreaterEqual(set(known), {"mouse", "simulated", "falcon", "haply", "spacemouse"})
+        for name in [*known, "haply:049D", "falcon:1"]:
+            self.hand.Device = name
+            self.assertEqual(self.hand.Device, name)
+        with self.assertRaisesRegex(haptics.HapticsError, "There are: .*haply"):
+            self.hand.Device = "joystick"
+
+    def test_help_describes_every_property_with_unit_and_range(self):
         haptics.scene()
         described = haptics.Scene.__doc__.splitlines()
         for name in self.hand.proxy.ListProperties():
             line = next(line for line in described if line.startswith(f"{name}:"))
-            self.assertGreater(len(line.split(":", 1)[1].replace("read only.", "").strip()), 10, line)
+            self.assertGreater(len(line.split(":", 1)[1].replace("(read only)", "").strip()), 10, line)
+        lines = {line.split(":")[0]: line for line in described}
+        for name, unit in (("Stiffness", "[N/m]"), ("EffectiveStiffness", "[N/m]"), ("MaximumForce", "[N]"),
+                           ("Force", "[N]"), ("ForceMagnitude", "[N]"), ("Rate", "[Hz]"),
+                           ("Penetration", "[world unit]"), ("GodObject", "[world unit]"),
+                           ("HapticInterfacePoint", "[world unit]"), ("WorkspaceTransform", "[m]"),
+                           ("Step", "1 ms"), ("LandmarkDistance", "world units")):
+            self.assertIn(unit, lines[name])
+        for name, values in (("Stiffness", "(at least 0; default 500.0)"), ("Engaged", "(0 or 1)"),
+                             ("Side", "(Front (0), Both (1), Automatic (2); default 'Automatic')"),
+                             ("Force", "(read only)"), ("Step", "(at least 1)"),
+                             ("Device", "devices: falcon, forcedimension, haply, mouse")):
+            self.assertIn(values, lines[name])
 
     def test_a_recording_gives_the_same_forces_again(self):
         self.touch(self.make("Sphere", ThetaResolution=32, PhiResolution=32))
         file = os.path.abspath("TestHapticSceneLife.hpr")
         self.hand.set(RecordingFileName=file, RecordTrace=1)
         self.hand.step(1500)
-        felt, mapping = trace_arrays(self.hand), list(self.hand.WorkspaceTransform)
+        arrays, mapping = trace_arrays(self.hand), list(self.hand.WorkspaceTransform)
         self.hand.set(RecordingFileName="", Device=file, RecordTrace=0)
         self.hand.set(RecordTrace=1, WorkspaceTransform=mapping)
         self.hand.step(1500)
         again = trace_arrays(self.hand)
-        self.assertGreater((felt["ActiveConstraints"] > 0).sum(), 500)
-        for name in set(felt) - {"Surface"}:
-            np.testing.assert_allclose(felt[name], again[name], rtol=0.0, atol=1e-12, err_msg=name)
+        self.assertGreater((arrays["ActiveConstraints"] > 0).sum(), 500)
+        for name in set(arrays) - {"Surface"}:
+            np.testing.assert_allclose(arrays[name], again[name], rtol=0.0, atol=1e-12, err_msg=name)
 
-    def test_a_falcon_that_is_not_there_is_told(self):
+    def test_a_falcon_that_is_not_there_is_reported(self):
         self.touch(self.make("Sphere"))
         self.hand.Device = "falcon"
         try:
@@ -139,7 +192,7 @@ class TestHapticSceneLife(SceneTest):
             with self.assertRaises(haptics.HapticsError):
                 self.hand.step(10)
             self.assertEqual((self.hand.EngagedInfo, self.hand.ForceMagnitude), (0, 0.0))
-        self.touch(self.make("Sphere"))  # beside them
+        self.touch(self.make("Sphere"))  # as well
         self.hand.proxy.InvokeCommand("Fit")
         self.hand.engage()
 
@@ -182,7 +235,9 @@ output.SetPolys(polygons)
 
     def test_a_chart_is_no_view_to_touch_in(self):
         chart = simple.CreateView("XYChartView")
-        self.hand.View = chart
+        with self.assertRaisesRegex(haptics.HapticsError, "XYChart|Line Chart.*render view"):
+            self.hand.View = chart
+        self.hand.proxy.View = chart  # as a state file does
         self.assertRegex(self.hand.Message, "XYChart.*render view")
         with self.assertRaises(haptics.HapticsError):
             self.hand.engage()
@@ -193,11 +248,14 @@ output.SetPolys(polygons)
         self.touch(self.make("Sphere"))
         self.hand.step(10)
         before = list(self.hand.WorkspaceTransform)
-        self.hand.WorkspaceTransform = [1.0, 0, 0, 0, 0, -1.0, 0, 0, 0, 0, 1.0, 0, 0, 0, 0, 1.0]
+        with self.assertRaisesRegex(ValueError, "WorkspaceTransform: "):
+            self.hand.WorkspaceTransform = [1.0, 0, 0, 0, 0, -1.0, 0, 0, 0, 0, 1.0, 0, 0, 0, 0, 1.0]
         self.assertEqual(list(self.hand.WorkspaceTransform), before)
-        self.hand.ScaleWorkspace = -1.0
+        with self.assertRaisesRegex(ValueError, "not above 0"):
+            self.hand.ScaleWorkspace = -1.0
+        self.hand.proxy.ScaleWorkspace = -1.0
         self.assertEqual(list(self.hand.WorkspaceTransform), before)
-        with self.assertRaisesRegex(haptics.HapticsError, "Step"):
+        with self.assertRaisesRegex((haptics.HapticsError, ValueError), "Step"):
             self.hand.step(0)
 
     def test_a_workspace_counts_that_is_given_again_after_another_device(self):
@@ -211,10 +269,16 @@ output.SetPolys(polygons)
 
     def test_a_state_brings_the_scene_back_released(self):
         self.touch(self.make("Sphere", ThetaResolution=32, PhiResolution=32))
-        self.hand.set(Stiffness=321.0, MaximumForce=2.0, Side="Both")
+        self.hand.set(Stiffness=321.0, MaximumForce=2.0, Side="Both", SubstepLimit=4, TipRadius=0.001)
+        self.assertEqual(self.hand.vtk.GetServo().GetSubstepLimit(), 4)
+        self.assertEqual(self.hand.vtk.GetTipRadius(), 0.001)
+        with self.assertRaisesRegex(ValueError, "SubstepLimit"):
+            self.hand.set(SubstepLimit=17)
+        with self.assertRaisesRegex(ValueError, "TipRadius"):
+            self.hand.set(TipRadius=-0.001)
         self.hand.RecordTrace = 1
         self.hand.step(1500)
-        felt = trace_arrays(self.hand)
+        arrays = trace_arrays(self.hand)
         mapping = list(self.hand.WorkspaceTransform)
         self.hand.engage()
         file = os.path.abspath("TestHapticSceneLife.pvsm")
@@ -226,14 +290,16 @@ output.SetPolys(polygons)
         self.assertEqual(hand.EngagedInfo, 0)
         self.assertEqual((hand.Stiffness, hand.MaximumForce, hand.Side, hand.Device),
                          (321.0, 2.0, "Both", "simulated"))
+        self.assertEqual((hand.SubstepLimit, hand.vtk.GetServo().GetSubstepLimit()), (4, 4))
+        self.assertEqual((hand.TipRadius, hand.vtk.GetTipRadius()), (0.001, 0.001))
         self.assertEqual(list(hand.WorkspaceTransform), mapping)
         self.assertEqual(len(hand.Surfaces), 1)
         simple.Render(hand.View)
         hand.RecordTrace = 1
         hand.step(1500)
         again = trace_arrays(hand)
-        for name in set(felt) - {"Surface"}:  # ids are given anew
-            np.testing.assert_array_equal(felt[name], again[name], name)
+        for name in set(arrays) - {"Surface"}:  # ids are given anew
+            np.testing.assert_array_equal(arrays[name], again[name], name)
 
     def test_a_process_that_ends_while_engaged_ends_well(self):
         script = (

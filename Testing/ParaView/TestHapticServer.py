@@ -71,14 +71,14 @@ def hand_pixels(hand, view):
 
 class TestHapticServer(unittest.TestCase):
     def test_the_trace_is_the_same_with_a_server(self):
-        felt = {}
+        arrays = {}
         for name, source in sources():
             hand, view = touch(source, "simulated")
             write_path(hand, path_of(name))
             simple.Delete(view)
             hand, view = touch(source, path_of(name))
-            felt[name] = trace_arrays(hand)
-            self.assertGreater((felt[name]["ActiveConstraints"] > 0).sum(), 1000, name)
+            arrays[name] = trace_arrays(hand)
+            self.assertGreater((arrays[name]["ActiveConstraints"] > 0).sum(), 1000, name)
             simple.Delete(view)
         server = Server(RANKS)
         try:
@@ -87,17 +87,17 @@ class TestHapticServer(unittest.TestCase):
                 remote = view.GetClientSideObject().GetUseDistributedRenderingForRender()
                 self.assertEqual(bool(remote), DRAWN == "remote")
                 again = trace_arrays(hand)
-                size = abs(felt[name]["GodObject"]).max()
-                force = abs(felt[name]["Force"]).max()
+                size = abs(arrays[name]["GodObject"]).max()
+                force = abs(arrays[name]["Force"]).max()
                 for array, scale in (("GodObject", size), ("Force", force), ("Penetration", size)):
-                    error = abs(again[array] - felt[name][array]).max() / scale
+                    error = abs(again[array] - arrays[name][array]).max() / scale
                     print(f"{name}, {array}: largest relative difference {error:.3g}")
                     self.assertLess(error, 1e-9, f"{name}, {array}")
                 np.testing.assert_array_equal(
-                    again["ActiveConstraints"] > 0, felt[name]["ActiveConstraints"] > 0, name)
+                    again["ActiveConstraints"] > 0, arrays[name]["ActiveConstraints"] > 0, name)
                 if name == "sphere":
                     self.assertGreater(hand_pixels(hand, view), 25)
-                    surface = hand.vtk.GetSurfaceFilter(hand.vtk.GetSurfaceId(0))
+                    surface = hand.vtk.GetSurfaceFilter(hand.vtk.GetSurfaces().GetId(0))
                     surface.Update()
                     report = surface.GetOutput().GetFieldData()
                     self.assertEqual(report.GetArray("BoundaryEdges").GetValue(0), 0, "a seam")
@@ -116,7 +116,7 @@ class TestHapticServer(unittest.TestCase):
         try:
             simple.Render(hand.View)
             source.UpdatePipeline()
-        except Exception as error:  # ParaView tells of it in one way or another
+        except Exception as error:  # ParaView reports it in one way or another
             print("ParaView:", re.sub(r"\s+", " ", str(error)))
         simple.Disconnect()
         self.assertFalse(scene.IsEngaged())

@@ -15,7 +15,7 @@ class TestHapticTrace(unittest.TestCase):
         hand.RecordTrace = 1
         hand.step(1500)
         script = smtrace.stop_trace()
-        felt = trace_arrays(hand)
+        arrays = trace_arrays(hand)
         self.assertIn("vtkhaptics.paraview.scene().touch_only(touchedDisplay)", script)
         simple.ResetSession()
         exec(compile(script, "trace", "exec"), {})
@@ -23,8 +23,8 @@ class TestHapticTrace(unittest.TestCase):
         self.assertEqual(hand.Stiffness, 250.0)
         again = trace_arrays(hand)
         self.assertGreater((again["ActiveConstraints"] > 0).sum(), 500)
-        for name in set(felt) - {"Surface"}:  # ids are given anew
-            np.testing.assert_array_equal(felt[name], again[name], name)
+        for name in set(arrays) - {"Surface"}:  # ids are given anew
+            np.testing.assert_array_equal(arrays[name], again[name], name)
         simple.ResetSession()
 
 

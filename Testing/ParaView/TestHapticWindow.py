@@ -8,42 +8,53 @@ import re
 import shutil
 import sys
 import tempfile
+import time
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "Python"))
 import real_window
+import window_scene
 
 PLUGIN, PARAVIEW = sys.argv[1:]
 SECONDS = 60.0
 
-# What a user does in the menus before, and what the test reads afterwards.
-SCENE = """
-from paraview import servermanager
-from paraview.simple import *
+SCENE = window_scene.scene(
+    """
+import os
+import time
 
-view = GetActiveViewOrCreate("RenderView")
-contour = Contour(Input=Wavelet(), ContourBy=["POINTS", "RTData"], Isosurfaces=[157.0])
-Show(contour, view)
-SetActiveSource(contour)
-ResetCamera()
-Render()
+from vtkmodules.vtkFiltersCore import vtkImplicitPolyDataDistance
 
-
-def report(*_):
-    proxy = servermanager.ProxyManager().GetProxy("haptics", "HapticScene")
-    if proxy:
-        hand = servermanager._getPyProxy(proxy)
-        proxy.UpdatePropertyInformation()
-        cells = contour.SMProxy.GetSelectionInput(0)
-        curves = [source for (name, _), source in GetSources().items() if name.startswith("HapticCurves")]
-        points = curves[0].GetDataInformation().GetNumberOfPoints() if curves else 0
-        print(f"STATE {hand.State} | {hand.ForceMagnitude:.3f} | {hand.NumberOfLandmarks}"
-              f" | {cells is not None} | {list(hand.HapticInterfacePoint)}"
-              f" | {points}", flush=True)
+BUSY = os.path.join(os.environ["HOME"], "busy")
+depth = vtkImplicitPolyDataDistance()  # how far outside of the contour
+depth.SetInput(servermanager.Fetch(contour))
 
 
-view.SMProxy.AddObserver("EndEvent", report)
-print("READY", flush=True)
+def show(hand):
+    if os.path.exists(BUSY):
+        print("BUSY")
+        while os.path.exists(BUSY):  # the window gets to nothing
+            time.sleep(0.01)
+    cells = contour.SMProxy.GetSelectionInput(0)
+    curves = [source for (name, _), source in GetSources().items() if name.startswith("HapticCurves")]
+    data = curves[0].GetDataInformation() if curves else None
+    points = sum(source.GetDataInformation().GetNumberOfPoints() for source in curves)
+    if data:
+        arrays = data.GetPointDataInformation()
+        print("ALONG", *sorted(arrays.GetArrayInformation(i).GetName()
+                               for i in range(arrays.GetNumberOfArrays())))
+    selection = cells and cells.GetProperty("Input").GetProxy(0)
+    ids = selection and selection.GetProperty("IDs")
+    if ids:
+        print("PAINTED", *sorted(ids.GetElement(i) for i in range(1, ids.GetNumberOfElements(), 2)))
+    print("OUTSIDE", depth.EvaluateFunction(hand.HapticInterfacePoint))
+    drawn = [display.Input.SMProxy for display in view.Representations if hasattr(display, "Input")
+             and display.Visibility]
+    print("SHOWN", *sorted(name for (name, _), source in GetSources().items() if source.SMProxy in drawn))
+    print(f"STATE {hand.State} | {hand.ForceMagnitude:.3f} | {hand.NumberOfLandmarks}"
+          f" | {cells is not None} | {list(hand.HapticInterfacePoint)}"
+          f" | {points}")
 """
+)
 
 
 class Hand:
@@ -59,9 +70,67 @@ class Hand:
         name, force, landmarks, painted, place, points = found[-1]
         return name, float(force), int(landmarks), painted == "True", place, int(points)
 
+    def painted(self):
+        """The cells that are selected, in a text."""
+        return (re.findall(r"^PAINTED (.*)$", self.program.output(), re.M) or [""])[-1]
+
+    def outside(self):
+        """How far the hand is outside of the contour [world unit]; its bounds are 20 wide."""
+        return float(re.findall(r"^OUTSIDE (.*)$", self.program.output(), re.M)[-1])
+
+    def shown(self):
+        """The names of the sources that the view shows."""
+        return re.findall(r"^SHOWN (.*)$", self.program.output(), re.M)[-1].split()
+
     def wait(self, condition, what):
-        """Moves the mouse by a pixel now and then, as a hand that waits does."""
         real_window.wait_for(lambda: condition(*self.state()), SECONDS, f"{what}; it is {self.state()}")
+
+    def settle(self):
+        """Waits until ParaView has got to all that the mouse and the keys have done, by a landmark after it; and by
+        another one to what it does a little later, as the end of a held key."""
+        for _ in range(2):
+            dropped = self.state()[2]
+            end = pressed = time.monotonic()
+            while self.state()[2] <= dropped:
+                assert time.monotonic() < end + SECONDS, f"no landmark; it is {self.state()}"
+                if time.monotonic() >= pressed:
+                    self.program.key("l")  # which does nothing where nothing is touched just then
+                    pressed += 5.0
+                time.sleep(0.05)
+            time.sleep(0.3)
+
+
+def hover_and_turn_the_wheel(desktop, program, hand):
+    """The hand is over the surface under the mouse; the wheel presses by a notch, and lets go by as many."""
+    def free(state, force, *_):
+        return state == "Engaged, in free space" and force == 0.0 and 0.0 < hand.outside() < 0.5
+
+    def pressed(least, most):
+        return lambda state, force, *_: state == "Engaged, touching Contour1" and least < force < most
+
+    program.move(0.46, 0.70)
+    program.drag(0.47, 0.71)
+    hand.wait(free, "a hand that hovers")
+    before = hand.state()[4]
+    program.drag(0.50, 0.71)
+    hand.wait(lambda *state: state[4] != before and free(*state), "a hand that hovers elsewhere")
+    program.move(0.32, 0.30)
+    hand.wait(lambda state, *_: state == "Engaged, waiting: move the mouse over a surface",
+              "a mouse that is over nothing")
+    program.move(0.49, 0.71)
+    program.drag(0.47, 0.71)
+    hand.wait(free, "a hand that hovers again")
+    desktop.xdo("click", "4")
+    hand.wait(pressed(0.3, 0.7), "a notch of the wheel to press")
+    desktop.xdo("click", "--repeat", "2", "--delay", "100", "4")
+    hand.wait(pressed(1.2, 1.8), "three notches to press harder")
+    # Over the contour's open end, and back: it never gets deeper in than it is pressed.
+    for x, y in ((0.44, 0.65), (0.47, 0.60), (0.50, 0.65), (0.47, 0.71)):
+        program.drag(x, y)
+        assert hand.outside() > -2.0, hand.outside()
+    hand.wait(pressed(1.2, 1.8), "the same press afterwards")
+    desktop.xdo("click", "--repeat", "3", "--delay", "100", "5")
+    hand.wait(free, "as many notches back to let go")
 
 
 def touch_a_contour(desktop, program):
@@ -74,6 +143,7 @@ def touch_a_contour(desktop, program):
     # Keys alone: the keyboard is in the view afterwards, so that the space bar presses at once.
     program.key("ctrl+shift+t")
     hand.wait(lambda state, *_: state.startswith("Engaged"), "Touch to engage")
+    hover_and_turn_the_wheel(desktop, program, hand)
     program.move(0.46, 0.70)
     program.drag(0.47, 0.71)
     desktop.xdo("keydown", "space")
@@ -89,13 +159,69 @@ def touch_a_contour(desktop, program):
     hand.wait(lambda state, force, landmarks, painted, *_: painted, "a painted cell")
     program.key("p")
 
-    # A stroke becomes a curve, a source of its own.
-    program.key("c")
+    # A brush: it paints as long as its key is held, and each stroke anew.
+    before = hand.painted()
+    time.sleep(0.2)  # a press within 10 ms of a release is the keyboard's repetition
+    desktop.xdo("keydown", "p")
+    program.drag(0.50, 0.71)
+    real_window.wait_for(lambda: hand.painted() != before, SECONDS, "other painted cells")
+    desktop.xdo("keyup", "p")
+    hand.settle()
+    before = hand.painted()
+    program.drag(0.49, 0.72)
+    program.drag(0.46, 0.70, seconds=2.0)
+    hand.settle()
+    assert hand.painted() == before, (before, hand.painted())
+
+    # The clutch by its key: no force, the hand stays; and back.
+    program.key("k")
+    hand.wait(lambda state, force, *_: state == "Engaged, clutched: nothing is touched" and force == 0.0,
+              "the clutch")
+    program.key("k")
+    program.drag(0.48, 0.71)
+    hand.wait(lambda state, force, *_: state == "Engaged, touching Contour1" and force > 0.1,
+              "contact after the clutch")
+
+    # And as long as its key is held.
+    desktop.xdo("keydown", "k")
+    hand.wait(lambda state, *_: state == "Engaged, clutched: nothing is touched", "the held clutch")
+    time.sleep(1.0)  # longer than a short press, which would leave it on
+    desktop.xdo("keyup", "k")
+    hand.wait(lambda state, *_: state != "Engaged, clutched: nothing is touched", "the end of the held clutch")
+    program.drag(0.47, 0.71)
+    hand.wait(lambda state, force, *_: state == "Engaged, touching Contour1" and force > 0.1,
+              "contact after the held clutch")
+
+    # How long it is held is what the keyboard says, not when a busy window gets to it.
     before = hand.state()[4]
+    busy = os.path.join(os.environ["HOME"], "busy")
+    with open(busy, "w"):
+        program.drag(0.475, 0.71)  # a picture, at which it begins
+        real_window.wait_for(lambda: "BUSY" in program.output(), SECONDS, "the window to be busy")
+    desktop.xdo("keydown", "k")
+    time.sleep(1.0)
+    desktop.xdo("keyup", "k")
+    os.remove(busy)
+    program.drag(0.48, 0.71)
+    hand.settle()  # which needs contact
+    assert hand.state()[4] != before, before
+
+    # A stroke becomes a curve, a source of its own, with the surface's arrays along it.
+    program.key("c")
+    hand.settle()
     program.drag(0.46, 0.70)
-    hand.wait(lambda *state: state[4] != before, "the stroke")
+    hand.settle()
     program.key("c")
     hand.wait(lambda *state: state[-1] > 1, "a curve")
+    along = re.findall(r"^ALONG (.*)$", program.output(), re.M)[-1].split()
+    assert {"ForceMagnitude", "Time", "arc_length", "RTData"} <= set(along), along
+    # A brush for curves too: a second one, while the key is held.
+    points = hand.state()[-1]
+    desktop.xdo("keydown", "c")
+    program.drag(0.48, 0.71, seconds=2.0)
+    hand.settle()
+    desktop.xdo("keyup", "c")
+    hand.wait(lambda *state: state[-1] > points, "a curve by a held key")
     desktop.xdo("keyup", "space")
     hand.wait(lambda state, force, *_: force == 0.0, "letting go")
 
@@ -111,11 +237,34 @@ def touch_a_contour(desktop, program):
     program.drag(0.46, 0.70)
     program.key("shift+p")
     hand.wait(lambda state, force, *_: force > 1.0, "Press to press")
+    # Also while the mouse is outside of the view, at a button of the panel for example.
+    program.move(0.5, 0.02)
+    time.sleep(0.5)
+    assert hand.state()[1] > 1.0, hand.state()
+    dropped = hand.state()[2]
+    program.key("l")
+    hand.wait(lambda state, force, landmarks, *_: landmarks > dropped and force > 1.0, "another landmark")
     program.key("shift+p")
     hand.wait(lambda state, force, *_: force == 0.0, "Press to let go")
 
     program.key("ctrl+shift+t")
     hand.wait(lambda state, *_: state == "Released", "Touch to release")
+    program.key("ctrl+shift+t")
+    hand.wait(lambda state, *_: state.startswith("Engaged"), "Touch to engage again")
+
+    # Clip hides what it clips, as it always does; the hand waits for what can be touched to be shown again.
+    program.key("ctrl+space")
+    real_window.wait_for(lambda: desktop.xdo("getwindowfocus") != program.window, SECONDS, "the search of filters")
+    desktop.xdo("type", "--delay", "50", "Clip")
+    time.sleep(0.5)
+    program.key("shift+Return")
+    hand.wait(lambda state, *_: state == "Engaged, waiting: nothing that can be touched is shown",
+              "a clip of what is touched")
+    assert "Clip1" in hand.shown() and "Contour1" not in hand.shown(), hand.shown()
+    program.key("ctrl+z")
+    hand.wait(lambda state, *_: "Contour1" in hand.shown(), "undo")
+    program.key("ctrl+shift+e")
+    hand.wait(lambda state, *_: state == "Released", "Engage to release")
 
 
 def main():

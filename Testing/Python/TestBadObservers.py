@@ -26,8 +26,8 @@ def test_virtual_time():
     scene.AddObserver(scene.ContactBeginEvent, lambda *_: others.append(scene.GetTouching()))
     scene.AddObserver(scene.ContactEndEvent, raises)
     raised = []
-    told = io.StringIO()
-    with redirect_stderr(told):
+    reported = io.StringIO()
+    with redirect_stderr(reported):
         for height in (0.01, -0.002, 0.01, 0.01, -0.002, 0.01, -0.002):
             free = scene.GetForce()
             device.SetPosition(0.0, 0.0, height)
@@ -35,7 +35,7 @@ def test_virtual_time():
                 scene.Step(300)
             except RuntimeError as error:
                 raised.append(str(error))
-    assert told.getvalue() == "", told.getvalue()
+    assert reported.getvalue() == "", reported.getvalue()
     both = ["the observer of ContactBeginEvent", "the observer of ContactEndEvent"]
     assert raised == [*both, *both, both[0]], raised
     assert others == [True] * 3, "the other observers are called"

@@ -80,7 +80,7 @@ def test_bad_input(folder):
         file.write("no surface")
     with open(empty, "w", encoding="ascii"):
         pass
-    for path, told in (
+    for path, text in (
         (lines, "no polygons"),
         (garbage, "could not be read"),
         (empty, "could not be read"),
@@ -89,7 +89,7 @@ def test_bad_input(folder):
     ):
         failed = demo("--surface", path, "--output", output, "--offscreen")
         assert failed.returncode == 2, (path, failed.returncode, failed.stderr)
-        assert told in failed.stderr and path in failed.stderr, failed.stderr
+        assert text in failed.stderr and path in failed.stderr, failed.stderr
         assert "Traceback" not in failed.stderr, failed.stderr
     assert not os.path.exists(output), "nothing is written before there is a surface"
 

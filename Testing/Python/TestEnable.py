@@ -76,7 +76,7 @@ def test_takes_what_can_be_touched():
     text = vtkTextActor()
     touch = vtkhaptics.enable(plot(hidden, unpickable, assembly, text), overlay=False)
     assert touch.scene.GetNumberOfSurfaces() == 1
-    assert touch.scene.GetSurfaceActor(touch.scene.GetSurfaceId(0)) is part
+    assert touch.scene.GetSurfaceActor(touch.scene.GetSurfaces().GetId(0)) is part
     touch.disable()
 
 
@@ -88,13 +88,13 @@ def test_names_of_the_plot():
     renderer.actors = {"skull": named, "PolyData(Addr=0x1)": unnamed}
     touch = vtkhaptics.enable(SimpleNamespace(iren=SimpleNamespace(interactor=interactor), renderer=renderer))
     scene = touch.scene
-    names = [scene.GetSurfaceName(scene.GetSurfaceId(i)) for i in range(2)]
+    names = [scene.GetSurfaces().GetName(scene.GetSurfaces().GetId(i)) for i in range(2)]
     assert names == ["skull", ""], names
     renderer.RemoveActor(named)
     renderer.AddActor(replaced)
     renderer.actors = {"skull": replaced}
     interactor.GetRenderWindow().Render()
-    names = [scene.GetSurfaceName(scene.GetSurfaceId(i)) for i in range(2)]
+    names = [scene.GetSurfaces().GetName(scene.GetSurfaces().GetId(i)) for i in range(2)]
     assert names == ["", "skull"], names
     spoilt = vtkhaptics.polydata(([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]))
     spoilt.GetPoints().SetPoint(1, float("nan"), 0.0, 0.0)
@@ -109,7 +109,7 @@ def test_names_of_the_plot():
 
 
 def test_refuses_what_cannot_be_touched():
-    for nothing, error, told in (
+    for nothing, error, text in (
         ("plot", TypeError, "pyvista.Plotter"),
         (plot(), ValueError, "no surface that can be touched"),
         (vtkRenderer(), TypeError, "vtkRenderWindowInteractor"),
@@ -117,7 +117,7 @@ def test_refuses_what_cannot_be_touched():
         try:
             vtkhaptics.enable(nothing)
         except error as e:
-            assert told in str(e), e
+            assert text in str(e), e
         else:
             raise AssertionError(f"{nothing} was taken for a plotter with something to touch")
 
@@ -138,7 +138,7 @@ def test_follows_what_is_shown():
     interactor.GetRenderWindow().Render()
     scene = touch.scene
     assert scene.GetNumberOfSurfaces() == 1
-    assert scene.GetSurfaceActor(scene.GetSurfaceId(0)) is second
+    assert scene.GetSurfaceActor(scene.GetSurfaces().GetId(0)) is second
     touch.disable()
     vtkhaptics.enable(interactor).disable()
 

@@ -48,7 +48,7 @@ def test_several_meshes_in_one_file(folder):
     depth = vtk_to_numpy(surface.GetPointData().GetArray("depth"))
     low, high = surface.GetBounds()[::2], surface.GetBounds()[1::2]
     assert len(depth) == surface.GetNumberOfPoints()
-    assert high[0] - low[0] > 4.9, "they lie beside each other"
+    assert high[0] - low[0] > 4.9, "they lie next to each other"
 
 
 def run(path):
@@ -166,7 +166,7 @@ def test_an_array_that_is_the_same_everywhere_colours_nothing(folder):
     assert surfaces.default_array(surface) == "height"
 
 
-def test_formats_are_told():
+def test_formats_are_known():
     for extension in (".vtu", ".vti", ".vtm", ".off", ".glb", ".nii", ".nrrd", ".gii"):
         assert extension in surfaces.FORMATS, extension
 
@@ -178,4 +178,4 @@ with tempfile.TemporaryDirectory() as scratch:
     test_no_file_ends_the_process(scratch, made)
     test_strips_of_a_ply_file_are_named(scratch)
     test_an_array_that_is_the_same_everywhere_colours_nothing(scratch)
-test_formats_are_told()
+test_formats_are_known()

@@ -22,14 +22,14 @@ def pressing(background=False, recording=None):
     device, scene, table = vtkSimulatedHapticDevice(), vtkHapticScene(), vtkPlaneSource()
     scene.SetDevice(device)
     scene.AddSurface(table.GetOutputPort())
-    scene.SetBackgroundBuilding(background)
+    scene.GetSurfaces().SetBackgroundBuilding(background)
     servo = scene.GetServo()
     be_patient(servo)
     if recording:
         servo.SetRecordingFileName(recording)
     device.SetPosition(0.0, 0.0, 0.01)
     scene.Engage()
-    wait_for(lambda: not scene.IsBuilding() and servo.GetNumberOfTicks() > 5, scene)
+    wait_for(lambda: not scene.GetSurfaces().IsBuilding() and servo.GetNumberOfTicks() > 5, scene)
     device.SetPosition(0.0, 0.0, -0.002)
     wait_for(lambda: device.GetForce()[2] > 0.9, scene)
     return scene, device

@@ -185,8 +185,8 @@ def test_inputs_are_never_written(folder):
                           check=False)
     assert done.returncode == 1 and "would be destroyed" in done.stderr, done
     assert content(touched) == before == content(surface)
-    felt = vtkhaptics.trace(surface, np.zeros((3, 3)) + 0.06, scale=1.0)
-    refusal(lambda: felt.to_csv(surface), "would be destroyed")
+    trace = vtkhaptics.trace(surface, np.zeros((3, 3)) + 0.06, scale=1.0)
+    refusal(lambda: trace.to_csv(surface), "would be destroyed")
     assert content(surface) == before
 
 
@@ -219,11 +219,11 @@ def test_formulas(folder):
         assert text_cell(text) == "'" + text
     assert text_cell("Force_X") == "Force_X"
     surface = vtkhaptics.polydata(make_surface(os.path.join(folder, "part.vtp")))
-    felt = vtkhaptics.trace(surface, np.zeros((3, 3)) + 0.06, scale=1.0)
-    array = felt.polydata.GetPointData().GetArray("Penetration")
+    trace = vtkhaptics.trace(surface, np.zeros((3, 3)) + 0.06, scale=1.0)
+    array = trace.polydata.GetPointData().GetArray("Penetration")
     array.SetName("=HYPERLINK(A1)")
     path = os.path.join(folder, "t.csv")
-    felt.to_csv(path)
+    trace.to_csv(path)
     with open(path, encoding="utf-8") as file:
         names = file.readline().split(",")
     assert "'=HYPERLINK(A1)" in names, names

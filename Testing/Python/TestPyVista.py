@@ -45,7 +45,7 @@ def test_touch():
     plotter.close()
 
 
-def felt(touch, x, y):
+def touched_at(touch, x, y):
     """The name of the surface that is touched at a place in the window [pixel from the lower left];
     None where there is none."""
     touch.scene.Step(1)
@@ -80,8 +80,8 @@ def test_meshes_of_any_kind():
         plotter = pyvista.Plotter(window_size=(100, 100))
         plotter.add_mesh(mesh)
         touch = shown(plotter)
-        assert felt(touch, 50, 50) is not None, type(mesh)
-        assert felt(touch, 1, 1) is None, type(mesh)
+        assert touched_at(touch, 50, 50) is not None, type(mesh)
+        assert touched_at(touch, 1, 1) is None, type(mesh)
         plotter.close()
 
 
@@ -89,14 +89,14 @@ def test_what_comes_and_goes():
     plotter = pyvista.Plotter(window_size=(100, 100))
     plotter.add_mesh(pyvista.Sphere(radius=10.0), name="one")
     touch = shown(plotter)
-    assert felt(touch, 50, 50)
+    assert touched_at(touch, 50, 50)
     plotter.add_mesh(pyvista.Cube(x_length=9.0, y_length=9.0, z_length=9.0), name="one")
     step(touch)
     assert touch.scene.GetNumberOfSurfaces() == 1
-    assert felt(touch, 50, 50)
+    assert touched_at(touch, 50, 50)
     plotter.clear()
     step(touch)
-    assert felt(touch, 50, 50) is None, "it is no longer there"
+    assert touched_at(touch, 50, 50) is None, "it is no longer there"
     plotter.close()
 
 
@@ -107,8 +107,8 @@ def test_subplots():
     plotter.subplot(0, 1)
     plotter.add_mesh(pyvista.Cube(x_length=2.0, y_length=2.0, z_length=2.0))
     touch = shown(plotter)
-    assert felt(touch, 150, 50), "the active one"
-    assert felt(touch, 50, 50) is None, "the ball there is no surface of the scene"
+    assert touched_at(touch, 150, 50), "the active one"
+    assert touched_at(touch, 50, 50) is None, "the ball there is no surface of the scene"
     plotter.close()
 
 

@@ -154,7 +154,7 @@ plotter.add_mesh(pyvista.Sphere(), name="ball")"""
 
 
 def test_widgets_work_and_are_not_touched(desktop, folder):
-    # A slider across the lower edge, and the sphere of a widget, far larger than the ball beside it.
+    # A slider across the lower edge, and the sphere of a widget, far larger than the ball next to it.
     add = BALL + """
 plotter.add_slider_widget(lambda value: print("slider", value, flush=True), (0.0, 1.0), value=0.5,
                           pointa=(0.2, 0.1), pointb=(0.8, 0.1))

@@ -4,7 +4,7 @@ usage: TestRandomScene.py [--steps N] [--seed N]
 
 Surfaces come, go, deform, change, move and are hidden, properties come and go, numbers are not finite,
 the workspace is turned and scaled, all at random while a hand strokes what is there, in virtual time.
-Each tick is checked, and that in the end a good surface feels as ever. A failure prints the seed.
+Each tick is checked, and that in the end a good surface gives the forces of before. A failure prints the seed.
 """
 
 import argparse
@@ -134,19 +134,19 @@ class Part:
             self.id, vtkGodObjectFilter.SIDE_ARRAY, self.dice.choice(ASSOCIATIONS), array
         )
 
-    def feel(self):
-        feel, name = self.scene.GetSurfaceProperties(self.id), self.dice.choice(PROPERTIES)
+    def set_material(self):
+        material, name = self.scene.GetSurfaceProperties(self.id), self.dice.choice(PROPERTIES)
         way = self.dice.randrange(4)
         if way < 2:
             array = self.dice.choice(("AtPoints", "AtCells", "Normals", "none such", None))
             self.scene.SetSurfacePropertyArray(self.id, name, self.dice.choice(ASSOCIATIONS), array)
         elif way == 2:
             lowest, highest = self.dice.choice(((0.0, 0.3), (100.0, 500.0), (-1.0, 1e9)))
-            feel.SetRange(name, lowest, self.dice.choice((highest, highest, math.nan)))
+            material.SetRange(name, lowest, self.dice.choice((highest, highest, math.nan)))
         else:
-            feel.SetForceShading(self.dice.random() < 0.5)
-            feel.SetStaticFriction(1.5 * self.dice.random())
-            feel.SetDynamicFriction(self.dice.choice((self.dice.random(), -1.0, math.nan)))
+            material.SetForceShading(self.dice.random() < 0.5)
+            material.SetStaticFriction(1.5 * self.dice.random())
+            material.SetDynamicFriction(self.dice.choice((self.dice.random(), -1.0, math.nan)))
 
     def show_or_hide(self):
         self.actor.SetVisibility(self.dice.random() < 0.7)
@@ -174,7 +174,7 @@ class RandomScene:
             part = dice.choice(self.parts)
             dice.choice(
                 (part.deform, part.deform, part.change, part.move, part.move, part.move)
-                + (part.feel, part.feel, part.choose_sides, part.show_or_hide)
+                + (part.set_material, part.set_material, part.choose_sides, part.show_or_hide)
             )()
         else:
             dice.choice(
@@ -184,8 +184,8 @@ class RandomScene:
                     lambda: scene.SetStiffness(dice.choice((0.0, 100.0, 500.0, 3000.0, math.nan))),
                     scene.FitWorkspace,
                     scene.ResetWorkspace,
-                    lambda: scene.SetBackgroundBuilding(dice.random() < 0.5),
-                    scene.CancelBuild,
+                    lambda: scene.GetSurfaces().SetBackgroundBuilding(dice.random() < 0.5),
+                    scene.GetSurfaces().CancelBuild,
                     lambda: scene.GetGrip().TakeSurface(dice.choice(self.parts).id),
                     scene.GetGrip().Take,
                     scene.GetGrip().LetGo,
@@ -216,7 +216,7 @@ class RandomScene:
         self.touching += self.scene.GetTouching()
 
     def recover(self):
-        """After all that a good surface feels as ever."""
+        """After all that a good surface gives the forces of before."""
         scene = self.scene
         scene.RemoveAllSurfaces()
         scene.SetClutched(False)
@@ -241,7 +241,7 @@ def main():
     parser.add_argument("--steps", type=int, default=200, help="things that happen; default 200")
     parser.add_argument("--seed", type=int, default=1, help="default 1")
     options = parser.parse_args()
-    vtkObject.GlobalWarningDisplayOff()  # most of what happens is an error, and is told as one
+    vtkObject.GlobalWarningDisplayOff()  # most of what happens is an error, and is reported as one
     scene = RandomScene(options.seed)
     step = 0
     try:

@@ -6,7 +6,7 @@ import time
 
 from vtkhaptics import (
     vtkHapticScene,
-    vtkHapticServo,
+    vtkHapticReadings,
     vtkRecordedHapticDevice,
     vtkSimulatedHapticDevice,
 )
@@ -46,15 +46,15 @@ recording = "TestServoSafety.haptic"
 servo.SetRecordingFileName(recording)
 assert scene.Engage(), scene.GetErrorMessage()
 wait_for(lambda: device_force() > 0.2 and servo.GetNumberOfTicks() > 200, scene)
-assert servo.GetPeriodRatio() >= servo.GetMeanPeriod() > 0.0, "readable while it runs"
+assert servo.GetReadings().GetPeriodRatio() >= servo.GetReadings().GetMeanPeriod() > 0.0, "readable while it runs"
 assert sum(
-    servo.GetPeriodCount(i) for i in range(vtkHapticServo.GetNumberOfHistogramBins())
+    servo.GetReadings().GetPeriodCount(i) for i in range(vtkHapticReadings.GetNumberOfHistogramBins())
 ) >= 200
-assert servo.GetCurrentStiffness() > 0.0
+assert servo.GetReadings().GetStiffness() > 0.0
 
 servo.PausedOn()
 # Both: between two strokes there is no force anyway, before the servo has heard of the pause.
-wait_for(lambda: "paused" in servo.DescribeForceLimits() and device_force() == 0.0, scene)
+wait_for(lambda: "paused" in servo.GetReadings().DescribeForceLimits() and device_force() == 0.0, scene)
 servo.PausedOff()
 wait_for(lambda: device_force() > 0.2, scene)
 

@@ -167,6 +167,11 @@ class Refusals(unittest.TestCase):
         for unit in (0.0, -1.0, np.nan, np.inf, "furlong"):
             self.refused(ValueError, f"unit is {unit!r}", unit=unit)
         self.refused(ValueError, "period is inf", period=np.inf)
+        for substeps in (0, 17, 1.5, np.nan):
+            self.refused(ValueError, f"substeps is {substeps}", substeps=substeps)
+        for radius in (-0.001, np.nan, np.inf):
+            self.refused(ValueError, f"tip_radius is {radius}", tip_radius=radius)
+        self.refused(vtkhaptics.HapticsError, "larger than the surface", tip_radius=5.0)
         self.refused(ValueError, "'automatic', 'front', 'both'", side="back")
         self.refused(ValueError, r"time has the shape \(2,\)", time=[0.0, 1.0])
 
@@ -216,6 +221,19 @@ class Results(unittest.TestCase):
         self.assertEqual(t.time.tolist(), [0.0, 0.002, 0.004])
         t = vtkhaptics.trace((VERTICES, TRIANGLES), PATH, maximum_force=0.25)
         self.assertAlmostEqual(t.magnitude.max(), 0.25)
+        heights = np.random.default_rng(3).uniform(-4e-3, 4e-3, (41, 41))
+        rough = np.dstack([*np.meshgrid(*2 * [np.linspace(-0.1, 0.1, 41)]), heights]).reshape(-1, 3)
+        at = np.arange(41 * 40).reshape(40, 41)[:, :-1].ravel()[:, None]
+        facets = np.vstack([at + [0, 1, 42], at + [0, 42, 41]])
+        path = np.linspace([-0.08, 0.01, -0.01], [0.08, -0.02, -0.01], 200)
+        path[0, 2] = 0.02
+        one, four = (vtkhaptics.trace((rough, facets), path, substeps=n).god_object for n in (1, 4))
+        by_default = vtkhaptics.trace((rough, facets), path).god_object
+        np.testing.assert_array_equal(by_default, one)
+        self.assertGreater(abs(one - four).max(), 1e-4)
+        ball = vtkhaptics.trace((VERTICES, TRIANGLES), PATH, tip_radius=0.01)
+        np.testing.assert_allclose(ball.god_object, PATH * [1, 1, 0] + [0, 0, 0.01], atol=1e-6)
+        np.testing.assert_allclose(ball.force[1:, 2], 500.0 * 0.012 / max(1.0, 500.0 * 0.012 / 3.3))
         behind = PATH * [1, 1, -1]
         self.assertTrue(vtkhaptics.trace((VERTICES, TRIANGLES), behind).touching.any())
         self.assertFalse(
@@ -302,10 +320,10 @@ class Results(unittest.TestCase):
         scene.Step(1)
         device.SetPosition(PATH[1])
         scene.Step(200)
-        felt = vtkhaptics.Trace(scene.GetTrace())
-        self.assertEqual(len(felt), 201)
-        self.assertAlmostEqual(felt.force[-1, 2], 1.0, places=9)
-        self.assertEqual(felt["Surface"][-1], scene.GetSurfaceId(0))
+        trace = vtkhaptics.Trace(scene.GetTrace())
+        self.assertEqual(len(trace), 201)
+        self.assertAlmostEqual(trace.force[-1, 2], 1.0, places=9)
+        self.assertEqual(trace["Surface"][-1], scene.GetSurfaces().GetId(0))
 
 
 class Package(unittest.TestCase):

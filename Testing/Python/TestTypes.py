@@ -29,7 +29,7 @@ scene.SetDevice(device)
 with scene.engaged() as same:
     same.Update()
 scene.AddObserver("ContactBeginEvent", lambda caller, event, probe: None)
-scene.GetServo().GetForce()[2]
+scene.GetServo().GetReadings().GetForce()[2]
 
 
 class Pen(vtkhaptics.HapticDevice):

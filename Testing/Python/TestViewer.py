@@ -147,10 +147,13 @@ def test_options_of_the_material_and_landmarks(folder):
     assert done.returncode == 0, done.stderr
     assert "x 1 mm" in done.stdout, done.stdout
     assert os.path.exists(marks)
-    shown = Viewer(parse([surface, "--friction", "0.5", "--stiffness-array", "Height"]))
+    shown = Viewer(parse([surface, "--friction", "0.5", "--stiffness-array", "Height", "--substeps", "8", "--tip-radius", "0.002"]))
+    assert shown.scene.GetServo().GetSubstepLimit() == 8
+    assert shown.scene.GetTipRadius() == 0.002
+    assert Viewer(parse([surface])).scene.GetServo().GetSubstepLimit() == 1
     with redirect_stdout(io.StringIO()):
         shown.add_surfaces()
-    id_ = shown.scene.GetSurfaceId(0)
+    id_ = shown.scene.GetSurfaces().GetId(0)
     assert shown.scene.GetSurfaceProperties(id_).GetStaticFriction() == 0.5
 
 
@@ -352,16 +355,16 @@ def test_the_window_is_there_while_surfaces_are_built(folder):
     assert shown.build()
     assert any("preparing" in text for text in seen), seen
     assert not words(shown), "it goes away"
-    assert shown.scene.IsSurfaceTouchable(shown.scene.GetSurfaceId(0))
+    assert shown.scene.GetSurfaces().IsTouchable(shown.scene.GetSurfaces().GetId(0))
 
     shown = opened()
     shown.scene.AddObserver(
         shown.scene.BuildEvent, lambda *_: shown.interactor.InvokeEvent("ExitEvent"))
     assert not shown.build(), "who closes the window does not wait"
-    assert not shown.scene.IsSurfaceTouchable(shown.scene.GetSurfaceId(0))
+    assert not shown.scene.GetSurfaces().IsTouchable(shown.scene.GetSurfaces().GetId(0))
 
 
-def test_what_is_gripped_is_carried_in_the_picture(folder):
+def test_what_is_gripped_moves_in_the_picture(folder):
     path = ball(0.0, folder)
     shown = Viewer(parse([path, "--offscreen", "--size", "200", "200", "--scalars", "none"]))
     with redirect_stdout(io.StringIO()):
@@ -376,7 +379,7 @@ def test_what_is_gripped_is_carried_in_the_picture(folder):
     device.SetPressed(True)
     scene.Step(200)
     assert scene.GetTouching()
-    assert scene.GetSurfaceName(scene.GetTouchedSurface()) == os.path.basename(path)
+    assert scene.GetSurfaces().GetName(scene.GetTouchedSurface()) == os.path.basename(path)
     drawn = shown.renderer.GetActors().GetLastActor()
     before, hand = np.array(drawn.GetCenter()), np.array(scene.GetGodObject())
     assert scene.GetGrip().Take(), scene.GetErrorMessage()
@@ -398,7 +401,7 @@ def test_bad_input(folder):
         pass
     fifo = os.path.join(folder, "fifo.stl")
     os.mkfifo(fifo)  # which nobody will ever write to
-    for status, told, arguments in (
+    for status, text, arguments in (
         (2, "no regular file", (fifo,)),
         (2, "no polygons", (lines,)),
         (2, "could not be read", (empty,)),
@@ -413,12 +416,16 @@ def test_bad_input(folder):
         (1, "no folder", (surface, "--landmarks", os.path.join(folder, "no", "l.csv"))),
         (2, "It has: ", (surface, "--stiffness-array", "Hieght")),
         (2, "out of range", (surface, "--friction", "-1")),
+        (2, "give 1 to 16", (surface, "--substeps", "0")),
+        (2, "give 0 to 1 m", (surface, "--tip-radius", "-0.001")),
+        (2, "give 0 to 1 m", (surface, "--tip-radius", "nan")),
+        (2, "invalid int", (surface, "--substeps", "2.5")),
         (2, "--device falcon", (surface, "--firmware", "a.bin")),
         (2, "required", ()),
     ):
         failed = viewer(*arguments, "--offscreen", "--seconds", "2")
         assert failed.returncode == status, (arguments, failed.returncode, failed.stderr)
-        assert told in failed.stderr, (told, failed.stderr)
+        assert text in failed.stderr, (text, failed.stderr)
         assert "Traceback" not in failed.stderr, failed.stderr
 
 
@@ -432,23 +439,23 @@ def test_stl_files_hold_at_least_as_many_triangles_as_they_say(folder):
     with open(path, "rb") as file:
         count, triangles = (whole := file.read())[80:84], whole[84:]
     for header in (b"made by a test", b"solid ball"):
-        for told, rest, refused in (
+        for head, rest, refused in (
             (count, triangles, False),
             (bytes(4), triangles, False),  # not known when the header was written
             (count, triangles + b"end", False),
             (b"\xff\xff\xff\x7f", triangles, True),  # VTK would end the process
-            (b"\x05\x00\x00\x00", triangles, False),  # fewer told than there are
+            (b"\x05\x00\x00\x00", triangles, False),  # says fewer than there are
             (count, triangles + bytes(60), False),
             (count, triangles[:-60], True),
         ):
             with open(path, "wb") as file:
-                file.write(header.ljust(80, b"\0") + told + rest)
+                file.write(header.ljust(80, b"\0") + head + rest)
             if refused:
                 failed = viewer(path, "--offscreen")
                 assert failed.returncode == 2 and path in failed.stderr, failed.stderr
                 assert "triangles, but its" in failed.stderr, failed.stderr
             else:
-                assert surfaces.read_surface(path).GetNumberOfPolys() == 3040, (header, told)
+                assert surfaces.read_surface(path).GetNumberOfPolys() == 3040, (header, head)
 
     with gzip.open(path + ".gz", "wb", compresslevel=1) as file:
         file.write(whole)
@@ -597,7 +604,7 @@ with tempfile.TemporaryDirectory() as scratch:
         test_outputs_that_cannot_be_written_are_found_before_a_surface_is_read,
         test_a_device_that_is_homed_is_waited_for_and_says_so,
         test_simulated,
-        test_what_is_gripped_is_carried_in_the_picture,
+        test_what_is_gripped_moves_in_the_picture,
         test_bad_input,
         test_stl_files_hold_at_least_as_many_triangles_as_they_say,
         test_an_stl_text_may_have_a_name_in_any_letters,

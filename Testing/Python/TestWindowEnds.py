@@ -4,6 +4,7 @@ Real keys, a real window manager, real processes. usage: TestWindowEnds.py [C++ 
 """
 
 import os
+import signal
 import sys
 import tempfile
 import time
@@ -13,12 +14,15 @@ from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
 import plot_program
-from real_window import Desktop, skip_where_it_cannot_run
+from real_window import Desktop, Program, skip_where_it_cannot_run
 
 PLOT = plot_program.PLOT + """
+import subprocess
 if "--observed" in sys.argv:  # Python's own code runs in the event loop, and so signal handlers
     interactor.AddObserver("TimerEvent", lambda *_: None, 5.0)
 print("ready", flush=True)
+if "--interrupted" in sys.argv:  # by another process, some time after this
+    subprocess.Popen(["sh", "-c", f"sleep {sys.argv[-1]}; kill -INT $PPID"])
 interactor.Start()
 print("ended", flush=True)
 touch.disable()
@@ -65,6 +69,7 @@ def test_viewer(desktop, folder):
         program = desktop.start(
             [sys.executable, "-m", "vtkhaptics", ball(folder), "--size", "400", "300",
              "--trace", results[0], "--screenshot", results[1]])
+        program.engages()
         time.sleep(1.0)  # something to record
         end(program, way, "viewer")
         for result in results:
@@ -99,6 +104,16 @@ def test_style(desktop, folder):
             assert ("left False" in program.output()) == (way != "Ctrl-C"), program.output()
 
 
+def test_interrupt_on_the_way_into_the_event_loop(desktop, folder):
+    script = os.path.join(folder, "plot.py")
+    for milliseconds in (0, 1, 2, 3, 4, 6, 8, 16):
+        command = [sys.executable, script, "--interrupted", str(0.001 * milliseconds)]
+        program = Program(desktop, command, os.path.join(folder, "interrupted.log"))
+        found = program.ended(60.0)
+        # As Python does it where the script has not come to the event loop, or as that ends.
+        assert found in (-signal.SIGINT, 130), (milliseconds, found, program.output())
+
+
 def test_cxx(desktop, _folder):
     for way in WAYS:
         program = desktop.start([sys.argv[1]])
@@ -109,6 +124,7 @@ def test_cxx(desktop, _folder):
 skip_where_it_cannot_run()
 with Desktop() as screen, tempfile.TemporaryDirectory() as scratch:
     test_style(screen, scratch)
+    test_interrupt_on_the_way_into_the_event_loop(screen, scratch)
     test_viewer(screen, scratch)
     test_demo(screen, scratch)
     if len(sys.argv) > 1:

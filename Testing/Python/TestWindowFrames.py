@@ -17,7 +17,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
-from real_window import SKIPPED, Desktop, skip_where_it_cannot_run, wait_for
+from real_window import SKIPPED, Desktop, skip_where_it_cannot_run, wait_for, whole_lines
 from vtkhaptics.detail import FRAME_TIME
 
 RESOLUTION = 866  # of a ball of 1.5 million triangles
@@ -43,7 +43,7 @@ def dented_ball(path):
 
 
 class Notes:
-    """What the program has told so far."""
+    """What the program has printed so far."""
 
     def __init__(self, path):
         self.path = path
@@ -52,8 +52,7 @@ class Notes:
         """The lines of a kind: each with its time, and what belongs to it."""
         if not os.path.exists(self.path):
             return []
-        with open(self.path, encoding="utf-8") as file:
-            lines = [json.loads(line) for line in file if line.endswith("\n")]
+        lines = [json.loads(line) for line in whole_lines(self.path)]
         return [line[1:] for line in lines if line[0] == what]
 
     def pictures(self, begin=0.0, end=float("inf")):

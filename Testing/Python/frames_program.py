@@ -1,4 +1,4 @@
-"""The viewer as TestWindowFrames.py's user sees it, that tells of its pictures in a file.
+"""The viewer as TestWindowFrames.py's user sees it, that lists its pictures in a file.
 
 usage: frames_program.py NOTES SURFACE [OPTION ...]
 

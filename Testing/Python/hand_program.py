@@ -1,9 +1,10 @@
-"""The viewer as TestWindowHand.py's user sees it, that tells on standard output what he does.
+"""The viewer as TestWindowHand.py's user sees it, that prints what he does.
 
 usage: hand_program.py NOTES SURFACE [OPTION ...]
 
 Lines of JSON in the file NOTES: first where in the window the longest way across the visible
-surface is, then each key and button with the servo's tick. The trace is for the viewer's --trace.
+surface is, then each key, button, move of the mouse and begin of a picture with the servo's tick. The
+trace is for the viewer's --trace.
 """
 
 import json
@@ -12,7 +13,7 @@ import sys
 from vtkhaptics.arguments import parse
 from vtkhaptics.viewer import Viewer
 
-EVENTS = ("KeyPressEvent", "KeyReleaseEvent", "LeftButtonPressEvent")
+EVENTS = ("KeyPressEvent", "KeyReleaseEvent", "LeftButtonPressEvent", "MouseMoveEvent")
 
 
 def longest_way(viewer):
@@ -66,14 +67,16 @@ def main():
     note(**longest_way(viewer), eye=camera.GetPosition(),
          scale=abs(transform.Determinant()) ** (1.0 / 3.0),
          stiffness=viewer.scene.GetStiffness(), depth=viewer.device.GetPressDepth())
+
+    def tick():
+        return viewer.scene.GetServo().GetNumberOfTicks()
+
     for event in EVENTS:
         viewer.interactor.AddObserver(
-            event,
-            lambda caller, name: note(
-                event=name, key=caller.GetKeySym(),
-                tick=viewer.scene.GetServo().GetNumberOfTicks()),
-            20.0,
-        )
+            event, lambda caller, name: note(event=name, key=caller.GetKeySym(), tick=tick()), 20.0)
+    viewer.interactor.GetInteractorStyle().AddObserver(  # it alone hears of the button while it turns
+        "EndInteractionEvent", lambda *_: note(event="CameraStays", key="", tick=tick()))
+    viewer.window.AddObserver("StartEvent", lambda *_: note(event="Picture", tick=tick()))
     viewer.run()
 
 

@@ -41,6 +41,12 @@ def wait_for(condition, seconds, what):
         time.sleep(0.05)
 
 
+def whole_lines(path):
+    """The lines of a file that another process writes, without one that it has not ended yet."""
+    with open(path, encoding="utf-8", errors="replace") as file:
+        return file.read().rpartition("\n")[0].splitlines()
+
+
 class Desktop:
     """An X server with openbox; programs that are started in it see a user's keys and mouse."""
 
@@ -119,9 +125,8 @@ class Program:
         self.window = None
 
     def output(self):
-        """All that the program has printed."""
-        with open(self.log, encoding="utf-8", errors="replace") as file:
-            return file.read()
+        """All lines that the program has printed."""
+        return "\n".join(whole_lines(self.log))
 
     def says(self, text, seconds=60.0):
         """Waits until the program has printed a text."""
@@ -133,6 +138,17 @@ class Program:
             return printed
 
         wait_for(found, seconds, f"{text!r} of {self.command}")
+
+    def engages(self, seconds=60.0):
+        """Waits until a servo runs in the program."""
+        tasks = f"/proc/{self.process.pid}/task"
+
+        def runs():
+            assert self.process.poll() is None, (self.command, self.output())
+            return subprocess.run(
+                f"grep -sqx 'haptic servo' {tasks}/*/comm", shell=True, check=False).returncode == 0
+
+        wait_for(runs, seconds, f"the servo of {self.command}")
 
     def find_window(self, title, seconds):
         def found():

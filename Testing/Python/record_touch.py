@@ -2,7 +2,7 @@
 
 usage: record_touch.py SURFACE PICTURE.gif
 
-A real window, a real mouse and real keys, as in the tests beside; needs Pillow. The README's
+A real window, a real mouse and real keys, as in the tests in this folder; needs Pillow. The README's
 touch.gif is made by it, of the cortex.
 """
 
@@ -84,7 +84,8 @@ def main(surface, path):
     with Desktop() as desktop:
         program = desktop.start(
             [sys.executable, "-m", "vtkhaptics", surface, "--size", *map(str, SIZE)], seconds=120.0)
-        time.sleep(6.0)
+        program.engages(120.0)
+        time.sleep(1.0)
         program.focus()
         recorder = Recorder(desktop, program)
         use(desktop, program, recorder)

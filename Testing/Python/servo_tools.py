@@ -16,7 +16,7 @@ def wait_for(condition, scene=None):
     """Waits until a condition holds, and updates the scene meanwhile where one is given."""
     end = time.monotonic() + PATIENCE
     while not condition():
-        limits = f": {scene.GetServo().DescribeForceLimits()}" if scene else ""
+        limits = f": {scene.GetServo().GetReadings().DescribeForceLimits()}" if scene else ""
         assert time.monotonic() < end, f"waited for {PATIENCE} s{limits}"
         time.sleep(0.002)
         if scene:

@@ -1,14 +1,27 @@
-// HapticsSoak's judge on real surfaces, those that Data/get_surfaces.py has got. Exits with 1 where
-// the judge finds fault, with 77 where there is no surface.
+// HapticsSoak's judge on real surfaces, those that Data/get_surfaces.py has got, and
+// HapticsBallSoak's with a twentieth of the ticks. Exits with 1 where a judge finds fault, with 77
+// where there is no surface.
+#include "JudgedBallSoak.h"
 #include "JudgedSoak.h"
 #include "RealSurface.h"
 #include "vtkGodObjectFilter.h"
 
 #include "vtkNew.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
 
+using namespace haptics;
 using namespace haptics::testing;
+
+namespace
+{
+/// A tick of a ball takes the judge so many times as long.
+constexpr long TicksOfABall = 20;
+}
 
 int main(int argc, char* argv[])
 {
@@ -29,7 +42,7 @@ int main(int argc, char* argv[])
   };
   const SoakOptions options = SoakOptions::Parse(argc, argv, 1000, 40000);
   JudgedSoak soak(options);
-  int surfaces = 0;
+  std::vector<std::pair<std::string, TouchedSurface>> touched;
   for (const char* const file : files)
   {
     const std::string path = PathOf({ file, 0, 0, 0, 0, false, 0 });
@@ -45,15 +58,24 @@ int main(int argc, char* argv[])
       std::printf("%s: no surface\n", file);
       return 1;
     }
-    soak.Run(file, { filter->GetSurface() });
-    ++surfaces;
+    touched.emplace_back(file, TouchedSurface{ filter->GetSurface() });
+    soak.Run(file, { touched.back().second });
   }
   const bool isGood = soak.Finish();
-  if (surfaces == 0)
+  std::printf("\nballs\n");
+  SoakOptions fewer = options;
+  fewer.Ticks = std::max(1L, options.Ticks / TicksOfABall);
+  JudgedBallSoak ballSoak(fewer);
+  for (const auto& [file, surface] : touched)
+  {
+    ballSoak.Run(file, { surface });
+  }
+  const bool areBallsGood = ballSoak.Finish();
+  if (touched.empty())
   {
     std::printf(
       "No surface in %s: 'python3 Data/get_surfaces.py' gets them.\n", HAPTICS_SURFACES_DIR);
     return 77;
   }
-  return isGood ? 0 : 1;
+  return isGood && areBallsGood ? 0 : 1;
 }

@@ -138,7 +138,7 @@ TEST_P(RealSurfaces, AreReportedAsTheyAre)
   }
 }
 
-TEST_P(RealSurfaces, LetNothingThroughAndFeelTheSameWithEveryEngine)
+TEST_P(RealSurfaces, LetNothingThroughAndAreTheSameWithEveryEngine)
 {
   std::vector<std::shared_ptr<const TriangleSurface>> surfaces;
   for (const int engine :

@@ -113,7 +113,7 @@ public:
   bool Run()
   {
     const auto errors = [](vtkObject*, unsigned long, void*, void*) {};
-    vtkNew<vtkCallbackCommand> quiet; // an actor that jumps is told, and is no fault here
+    vtkNew<vtkCallbackCommand> quiet; // an actor that jumps is reported, and is no fault here
     quiet->SetCallback(errors);
     this->Scene->AddObserver(vtkCommand::ErrorEvent, quiet);
     this->Device->SetPosition(0.0, 0.0, 0.05);

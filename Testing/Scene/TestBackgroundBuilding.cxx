@@ -2,6 +2,7 @@
 
 #include "vtkActor.h"
 #include "vtkGodObjectFilter.h"
+#include "vtkHapticSurfaces.h"
 #include "vtkMatrix4x4.h"
 #include "vtkPoints.h"
 #include "vtkPolyDataMapper.h"
@@ -64,14 +65,14 @@ protected:
     this->Hand.Device->SetPosition(0.0, 0.0, -0.002);
     this->Scene->Step(1);
     ASSERT_TRUE(this->Scene->GetTouching());
-    this->Scene->BackgroundBuildingOn();
+    this->Scene->GetSurfaces()->BackgroundBuildingOn();
   }
 
   void Show(vtkPolyData* geometry) { this->Mapper->SetInputData(geometry); }
 
   void AwaitBuilds()
   {
-    while (this->Scene->IsBuilding())
+    while (this->Scene->GetSurfaces()->IsBuilding())
     {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
       this->Scene->Update();
@@ -123,7 +124,7 @@ TEST_F(BackgroundBuilding, UpdateReturnsAtOnceAndTheContactLastsOverThirteenHund
     longest = std::max(longest, SecondsSince(before));
     EXPECT_TRUE(this->Scene->GetTouching());
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  } while (this->Scene->IsBuilding());
+  } while (this->Scene->GetSurfaces()->IsBuilding());
   const double all = SecondsSince(start);
   RecordProperty("LongestUpdateInMilliseconds", static_cast<int>(1000.0 * longest));
   RecordProperty("BuildInMilliseconds", static_cast<int>(1000.0 * all));
@@ -141,7 +142,7 @@ TEST(BackgroundBuildingOfAScene, StepWaitsSoThatItGivesTheSameAsBuildingAtOnce)
   for (const bool background : { false, true })
   {
     LedHand hand;
-    hand.Scene->SetBackgroundBuilding(background);
+    hand.Scene->GetSurfaces()->SetBackgroundBuilding(background);
     vtkNew<vtkPolyDataMapper> mapper;
     vtkNew<vtkActor> actor;
     actor->SetMapper(mapper);
@@ -151,7 +152,7 @@ TEST(BackgroundBuildingOfAScene, StepWaitsSoThatItGivesTheSameAsBuildingAtOnce)
     hand.MoveTo(-0.01);
     mapper->SetInputData(MakeBall(Fine / 3, 0.001));
     hand.Scene->Step(10);
-    EXPECT_FALSE(hand.Scene->IsBuilding());
+    EXPECT_FALSE(hand.Scene->GetSurfaces()->IsBuilding());
     forces[background] = hand.Scene->GetForce()[2];
   }
   EXPECT_EQ(forces[0], forces[1]);
@@ -160,17 +161,30 @@ TEST(BackgroundBuildingOfAScene, StepWaitsSoThatItGivesTheSameAsBuildingAtOnce)
 
 TEST_F(BackgroundBuilding, TheNewestGeometryWinsAndThoseBetweenAreLeftOut)
 {
-  this->Show(MakeBall(Fine));
-  this->Scene->Update();
-  EXPECT_TRUE(this->Scene->IsBuilding());
-  this->Show(MakeBall(Fine + 1));
-  this->Scene->Update();
-  vtkSmartPointer<vtkPolyData> newest = MakeBall(Fine / 2);
-  this->Show(newest);
-  this->AwaitBuilds();
-  EXPECT_EQ(static_cast<vtkIdType>(this->Filter()->GetSurface()->Triangles().size()),
-    newest->GetNumberOfPolys());
-  EXPECT_EQ(this->Filter()->GetNumberOfBuilds(), 3) << "the first, the fine one and the newest";
+  // A busy machine may take so long between two lines that the first is built: then once more.
+  for (int attempt = 0; attempt < 100; ++attempt)
+  {
+    const vtkSmartPointer<vtkPolyData> first = MakeBall(Fine);
+    const vtkSmartPointer<vtkPolyData> between = MakeBall(Fine + 1);
+    const vtkSmartPointer<vtkPolyData> newest = MakeBall(Fine / 2);
+    const vtkIdType before = this->Filter()->GetNumberOfBuilds();
+    this->Show(first);
+    this->Scene->Update();
+    EXPECT_TRUE(this->Scene->GetSurfaces()->IsBuilding());
+    this->Show(between);
+    this->Scene->Update();
+    const bool isFirstInWork = this->Filter()->GetNumberOfBuilds() == before;
+    this->Show(newest);
+    this->AwaitBuilds();
+    EXPECT_EQ(static_cast<vtkIdType>(this->Filter()->GetSurface()->Triangles().size()),
+      newest->GetNumberOfPolys());
+    if (isFirstInWork)
+    {
+      EXPECT_EQ(this->Filter()->GetNumberOfBuilds(), before + 2) << "the first and the newest";
+      return;
+    }
+  }
+  FAIL() << "the first was always built before the next was shown";
 }
 
 TEST_F(BackgroundBuilding, ACancelledBuildLeavesWhatWasTouchedTillTheGeometryChangesAgain)
@@ -178,10 +192,10 @@ TEST_F(BackgroundBuilding, ACancelledBuildLeavesWhatWasTouchedTillTheGeometryCha
   const auto before = this->Filter()->GetSurface();
   this->Show(MakeBall(Fine));
   this->Scene->Update();
-  ASSERT_TRUE(this->Scene->IsBuilding());
-  this->Scene->CancelBuild();
-  EXPECT_FALSE(this->Scene->IsBuilding());
-  EXPECT_EQ(this->Scene->GetBuildProgress(), 1.0);
+  ASSERT_TRUE(this->Scene->GetSurfaces()->IsBuilding());
+  this->Scene->GetSurfaces()->CancelBuild();
+  EXPECT_FALSE(this->Scene->GetSurfaces()->IsBuilding());
+  EXPECT_EQ(this->Scene->GetSurfaces()->GetBuildProgress(), 1.0);
   this->Scene->Step(1);
   EXPECT_TRUE(this->Scene->GetTouching());
   EXPECT_EQ(this->Filter()->GetSurface(), before);
@@ -192,32 +206,32 @@ TEST_F(BackgroundBuilding, ACancelledBuildLeavesWhatWasTouchedTillTheGeometryCha
   EXPECT_NE(this->Filter()->GetSurface(), before);
 }
 
-TEST_F(BackgroundBuilding, ProgressGoesFromZeroToOneAndEveryStepIsTold)
+TEST_F(BackgroundBuilding, ProgressGoesFromZeroToOneAndEveryStepIsReported)
 {
-  struct Told
+  struct Reports
   {
     std::vector<double> Progress;
     vtkHapticScene* Scene;
-  } told{ {}, this->Scene };
+  } reports{ {}, this->Scene };
   vtkNew<vtkCallbackCommand> listener;
-  listener->SetClientData(&told);
+  listener->SetClientData(&reports);
   listener->SetCallback(
     [](vtkObject*, unsigned long, void* data, void*)
     {
-      auto* to = static_cast<Told*>(data);
-      to->Progress.push_back(to->Scene->GetBuildProgress());
+      auto* to = static_cast<Reports*>(data);
+      to->Progress.push_back(to->Scene->GetSurfaces()->GetBuildProgress());
     });
   this->Scene->AddObserver(vtkHapticScene::BuildEvent, listener);
   this->Show(MakeBall(Fine));
   this->Scene->Update();
   this->AwaitBuilds();
-  ASSERT_GE(told.Progress.size(), 2u);
-  EXPECT_LT(told.Progress.front(), 1.0);
-  EXPECT_EQ(told.Progress.back(), 1.0);
-  EXPECT_TRUE(std::is_sorted(told.Progress.begin(), told.Progress.end()));
+  ASSERT_GE(reports.Progress.size(), 2u);
+  EXPECT_LT(reports.Progress.front(), 1.0);
+  EXPECT_EQ(reports.Progress.back(), 1.0);
+  EXPECT_TRUE(std::is_sorted(reports.Progress.begin(), reports.Progress.end()));
 }
 
-TEST_F(BackgroundBuilding, ABadGeometryIsToldOnceAndTheLastOneStays)
+TEST_F(BackgroundBuilding, ABadGeometryIsReportedOnceAndTheLastOneStays)
 {
   vtkSmartPointer<vtkPolyData> bad = MakeBall(16);
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -240,7 +254,7 @@ TEST_F(BackgroundBuilding, PointsMayBeWrittenWhileTheyAreBuiltFrom)
   vtkSmartPointer<vtkPolyData> ball = MakeBall(Fine);
   this->Show(ball);
   this->Scene->Update();
-  ASSERT_TRUE(this->Scene->IsBuilding());
+  ASSERT_TRUE(this->Scene->GetSurfaces()->IsBuilding());
   for (vtkIdType i = 0; i < ball->GetNumberOfPoints(); ++i)
   {
     double point[3];
@@ -265,7 +279,7 @@ TEST_F(BackgroundBuilding, AnActorMayBeScaledWhileItIsBuiltForTheFirstTime)
   this->Scene->RemoveAllSurfaces();
   this->Scene->AddSurface(actor);
   this->Scene->Update();
-  ASSERT_TRUE(this->Scene->IsBuilding());
+  ASSERT_TRUE(this->Scene->GetSurfaces()->IsBuilding());
   actor->SetScale(2.0);
   this->AwaitBuilds();
   EXPECT_NEAR(this->HalfWidth(), 0.05 * std::sqrt(3.0), Coarseness);
@@ -277,7 +291,7 @@ TEST_F(BackgroundBuilding, AScaleMayBeTakenBackWhileItIsBuilt)
   this->Scene->Step(1);
   this->Actor->SetScale(2.0);
   this->Scene->Update();
-  ASSERT_TRUE(this->Scene->IsBuilding());
+  ASSERT_TRUE(this->Scene->GetSurfaces()->IsBuilding());
   this->Actor->SetScale(1.0);
   this->AwaitBuilds();
   EXPECT_NEAR(this->HalfWidth(), 0.05, Coarseness);
@@ -287,9 +301,9 @@ TEST_F(BackgroundBuilding, ASurfaceMayGoWhileItIsBuilt)
 {
   this->Show(MakeBall(Fine));
   this->Scene->Update();
-  ASSERT_TRUE(this->Scene->IsBuilding());
+  ASSERT_TRUE(this->Scene->GetSurfaces()->IsBuilding());
   this->Scene->RemoveAllSurfaces();
-  EXPECT_FALSE(this->Scene->IsBuilding());
+  EXPECT_FALSE(this->Scene->GetSurfaces()->IsBuilding());
   this->Scene->Step(1);
   EXPECT_FALSE(this->Scene->GetTouching());
 }
@@ -297,20 +311,20 @@ TEST_F(BackgroundBuilding, ASurfaceMayGoWhileItIsBuilt)
 TEST(BackgroundBuildingOfAScene, TheSceneMayGoWhileItBuilds)
 {
   vtkNew<vtkHapticScene> scene;
-  scene->BackgroundBuildingOn();
+  scene->GetSurfaces()->BackgroundBuildingOn();
   scene->AddSurface(MakeBall(Fine));
   scene->AddSurface(MakeBall(Fine + 1));
   scene->Update();
-  EXPECT_TRUE(scene->IsBuilding());
+  EXPECT_TRUE(scene->GetSurfaces()->IsBuilding());
 }
 
 TEST(BackgroundBuildingOfAScene, TheWorkspaceIsFittedToWhatIsBuiltForTheFirstTime)
 {
   LedHand hand;
-  hand.Scene->BackgroundBuildingOn();
+  hand.Scene->GetSurfaces()->BackgroundBuildingOn();
   hand.Scene->AddSurface(MakeBall(Fine));
   ASSERT_TRUE(hand.Scene->FitWorkspace());
-  ASSERT_TRUE(hand.Scene->IsBuilding());
+  ASSERT_TRUE(hand.Scene->GetSurfaces()->IsBuilding());
   double early = hand.Scene->GetWorkspaceTransform()->GetElement(0, 0);
   hand.Scene->Step(1);
   ASSERT_TRUE(hand.Scene->FitWorkspace());

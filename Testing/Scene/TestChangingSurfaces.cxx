@@ -6,6 +6,8 @@
 #include "vtkContourFilter.h"
 #include "vtkGodObjectFilter.h"
 #include "vtkHapticProbe.h"
+#include "vtkHapticReadings.h"
+#include "vtkHapticSurfaces.h"
 #include "vtkImageData.h"
 #include "vtkMath.h"
 #include "vtkPlaneSource.h"
@@ -106,7 +108,7 @@ struct Membrane : LedHand
       const double before = this->Scene->GetForce()[2];
       this->Scene->GetServo()->Step(1);
       double force[3];
-      this->Scene->GetServo()->GetWorldForce(force);
+      this->Scene->GetServo()->GetReadings()->GetWorldForce(force);
       this->Scene->Update();
       largest = std::max(largest, std::abs(force[2] - before));
     }
@@ -122,7 +124,7 @@ TEST(ChangingSurfaces, TheSameCellsDeformWithoutBuildingAndWithoutAStep)
   for (int step = 1; step <= 10; ++step)
   {
     hand.Producer->SetOutput(NextStep(hand.Flat, 0.001 * step));
-    EXPECT_LE(hand.LargestStep(33), 0.05) << "30 mm/s, told 30 times a second, step " << step;
+    EXPECT_LE(hand.LargestStep(33), 0.05) << "30 mm/s, updated 30 times a second, step " << step;
     EXPECT_TRUE(hand.Scene->GetTouching());
   }
   EXPECT_EQ(hand.Builds(), 1);
@@ -181,12 +183,12 @@ TEST(ChangingSurfaces, OneThatComesTooSoonWaitsAndThenTakesPart)
   EXPECT_EQ(hand.Builds(), 1) << "each has deformed";
 }
 
-// Built beside: each is there long before the servo has come to the one before.
-TEST(ChangingSurfaces, OneThatIsBuiltBesideTooSoonWaitsForTheOneBefore)
+// Built in the background: each is there long before the servo has come to the one before.
+TEST(ChangingSurfaces, OneThatIsBuiltInTheBackgroundTooSoonWaitsForTheOneBefore)
 {
   Membrane hand;
   hand.Scene->Step(33);
-  hand.Scene->BackgroundBuildingOn();
+  hand.Scene->GetSurfaces()->BackgroundBuildingOn();
   double largest = 0.0;
   for (int step = 1; step <= 5; ++step)
   {
@@ -244,7 +246,7 @@ TEST(ChangingSurfaces, PointsThatWereOneAndPartAreAnotherSnapshot)
   EXPECT_EQ(hand.Builds(), 3);
 }
 
-TEST(ChangingSurfaces, ABadTimeStepIsToldOnceAndTheSeriesGoesOn)
+TEST(ChangingSurfaces, ABadTimeStepIsReportedOnceAndTheSeriesGoesOn)
 {
   Membrane hand;
   hand.Scene->Step(33);
@@ -287,7 +289,7 @@ TEST(ChangingSurfaces, PointsAreNoFasterThanAHandCanFollow)
     {
       hand.Scene->GetServo()->Step(1);
       double at[3];
-      hand.Scene->GetServo()->GetGodObject(at);
+      hand.Scene->GetServo()->GetReadings()->GetGodObject(at);
       fastest = std::max(fastest, at[2] - before);
       before = at[2];
     }
@@ -399,7 +401,7 @@ TEST_P(ContourSeries, IsStrokedWithoutALeakOrAPop)
       hand.Device->SetPosition(0.056 * std::sin(a), 0.01, 0.056 * std::cos(a));
       i == 0 ? hand.Scene->Step(1) : hand.Scene->GetServo()->Step(1);
       double at[3];
-      hand.Scene->GetServo()->GetGodObject(at);
+      hand.Scene->GetServo()->GetReadings()->GetGodObject(at);
       // A facet of the grid's 8 mm lies up to 0.2 mm inside the ball; between two steps the ball
       // may be at either radius.
       EXPECT_GT(std::hypot(at[0], at[1], at[2]), radius - 0.0035) << "step " << step;

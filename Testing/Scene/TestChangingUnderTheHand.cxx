@@ -6,6 +6,7 @@
 #include "vtkHapticServo.h"
 #include "vtkSimulatedHapticDevice.h"
 
+#include "vtkHapticReadings.h"
 #include "vtkNew.h"
 
 #include <gtest/gtest.h>
@@ -21,8 +22,7 @@ using haptics::TickRecord;
 using haptics::Vec3;
 using Surface = std::shared_ptr<const haptics::TriangleSurface>;
 
-constexpr double Period = 0.001; // [s]
-constexpr double Size = 0.1;     // [m]
+constexpr double Size = 0.1; // [m]
 
 /// Two half planes that meet along the y axis and fall by `slope` to both sides, each in strips.
 ///
@@ -173,7 +173,7 @@ double DeviationAtRest(int preset, double slope, double stiffness, Exchange what
   scene.Begin({ 0.0003, 0.0002, 0.004 });
   scene.Lead({ 0.0003, 0.0002, -0.01 }, 100, what, rate);
   scene.Lead({ 0.0003, 0.0002, -0.01 }, 1400, what, rate);
-  EXPECT_GT(scene.Servo->GetNumberOfConstraints(), 0);
+  EXPECT_GT(scene.Servo->GetReadings()->GetNumberOfConstraints(), 0);
   EXPECT_GT(std::hypot(scene.Ticks.back().Force[0], scene.Ticks.back().Force[2]), 0.1);
   return scene.Deviation(250);
 }

@@ -1,9 +1,11 @@
-// What the hand grips goes where the hand goes, and is felt again when it is let go.
+// What the hand grips goes where the hand goes, and is touched again when it is let go.
 #include "GripTestTools.h"
+#include "TraceComparison.h"
 
 #include "vtkAssembly.h"
 #include "vtkDataArray.h"
 #include "vtkHapticProbe.h"
+#include "vtkHapticSurfaces.h"
 #include "vtkMatrix4x4.h"
 #include "vtkPointData.h"
 #include "vtkTransform.h"
@@ -21,22 +23,6 @@
 namespace
 {
 constexpr unsigned int GripButton = 1u << 2;
-
-/// The largest change of the force from one tick to the next in a trace [N].
-double LargestForceStep(vtkPolyData* trace)
-{
-  vtkDataArray* forces = trace->GetPointData()->GetArray("Force");
-  double largest = 0.0;
-  for (vtkIdType i = 1; i < forces->GetNumberOfTuples(); ++i)
-  {
-    Point before;
-    Point after;
-    forces->GetTuple(i - 1, before.data());
-    forces->GetTuple(i, after.data());
-    largest = std::max(largest, Length(after - before));
-  }
-  return largest;
-}
 
 /// Writes down what is gripped and let go of.
 class Diary
@@ -90,7 +76,7 @@ TEST(Grip, TheActorMovesByWhatTheGodObjectMoves)
     bench.Go(0.003 - 0.001 * i, 0.005 + 0.002 * i, 0.018 + 0.0005 * i * i, 16);
     const Point moved = bench.GodObject() - held;
     ASSERT_LE(Length(bench.Place(bench.Part) - moved), 1e-9) << i;
-    ASSERT_EQ(bench.Force(), 0.0) << "the hand feels nothing in free space";
+    ASSERT_EQ(bench.Force(), 0.0) << "there is no force in free space";
   }
   EXPECT_GT(Length(bench.Place(bench.Part)), 0.1);
 }
@@ -182,7 +168,7 @@ TEST(Grip, AWallHoldsHandAndPartBack)
   EXPECT_NEAR(bench.Place(bench.Part)[0], 0.1 - 0.003, Clearance);
   EXPECT_NEAR(bench.Place(bench.Part)[2], -0.002, Clearance) << "it has come to the hand";
 
-  // Let go there: both hold it now, and nothing is felt of that but the wall.
+  // Let go there: both hold it now, and nothing of that pushes but the wall.
   bench.Scene->GetGrip()->LetGo();
   bench.Scene->Step(50);
   EXPECT_NEAR(bench.Force(), 500.0 * 0.003, 1e-3);
@@ -217,7 +203,8 @@ TEST(Grip, LettingGoOfAMovingPartIsSoftAndNeverLeaks)
         ASSERT_EQ(bench.Scene->GetTouching(), speed < 0.0) << speed;
       }
     }
-    EXPECT_LE(LargestForceStep(bench.Scene->GetTrace()), 1.0 + 1e-9) << "N, the slew limit";
+    EXPECT_LE(haptics::testing::LargestForceStep(bench.Scene->GetTrace()), 1.0 + 1e-9)
+      << "N, the slew limit";
     EXPECT_EQ(bench.Scene->GetTrace()->GetNumberOfPoints(), 201) << "every tick is in the trace";
   }
 }
@@ -242,7 +229,7 @@ TEST(Grip, AButtonGripsWhileItIsHeld)
   EXPECT_EQ(bench.Scene->GetGrip()->GetSurface(), -1);
   EXPECT_NEAR(bench.Place(bench.Part)[2], 0.028, Clearance);
   bench.Go(0.003, 0.005, 0.047);
-  EXPECT_EQ(bench.Scene->GetTouchedSurface(), bench.PartId) << "felt again";
+  EXPECT_EQ(bench.Scene->GetTouchedSurface(), bench.PartId) << "touched again";
   const std::string id = std::to_string(bench.PartId);
   EXPECT_EQ(diary.Events, " grip" + id + " letgo" + id);
 
@@ -264,17 +251,17 @@ TEST(Grip, WhatIsGrippedIsNotInTheWay)
 {
   Workbench bench;
   ASSERT_TRUE(bench.PressAndGrip());
-  EXPECT_FALSE(bench.Scene->IsSurfaceTouchable(bench.PartId));
+  EXPECT_FALSE(bench.Scene->GetSurfaces()->IsTouchable(bench.PartId));
   const double from[3] = { 0.0, 0.0, 1.0 };
   const double down[3] = { 0.0, 0.0, -1.0 };
   double hit[3];
   EXPECT_FALSE(bench.Scene->IntersectRay(from, down, hit)) << "the mouse's hand would press on it";
   bench.Scene->GetGrip()->LetGo();
   EXPECT_TRUE(bench.Scene->IntersectRay(from, down, hit));
-  EXPECT_TRUE(bench.Scene->IsSurfaceTouchable(bench.PartId));
+  EXPECT_TRUE(bench.Scene->GetSurfaces()->IsTouchable(bench.PartId));
 }
 
-TEST(Grip, OneThatIsNotTouchedIsCarriedToo)
+TEST(Grip, OneThatIsNotTouchedIsMovedToo)
 {
   Workbench bench;
   bench.Go(0.003, 0.005, 0.05);
@@ -369,7 +356,7 @@ TEST(Grip, SetBackWhereItCameFromItPushesNoHand)
 }
 
 // A dropped frame: the scene is updated late, or ticks are lost because it was.
-TEST(Grip, IsToldBeforeTheActorMovesAndItsContactStaysToBeProbed)
+TEST(Grip, IsReportedBeforeTheActorMovesAndItsContactStaysToBeProbed)
 {
   Workbench bench;
   bench.Go(0.003, 0.005, 0.018);

@@ -2,6 +2,7 @@
 #include "GripTestTools.h"
 
 #include "vtkAssembly.h"
+#include "vtkHapticReadings.h"
 #include "vtkMatrix4x4.h"
 #include "vtkSphereSource.h"
 
@@ -17,7 +18,7 @@
 
 namespace
 {
-/// Tells what `scene` says when it refuses to grip; fails the test where it does not.
+/// Returns what `scene` says when it refuses to grip; fails the test where it does not.
 std::string Refusal(vtkHapticScene* scene, int id)
 {
   EventCounter errors(scene, vtkCommand::ErrorEvent);
@@ -83,7 +84,7 @@ TEST(GripBadInput, GeometryIsRefusedToTheButtonOnce)
   EXPECT_TRUE(bench.Scene->GetTouching());
 }
 
-// The surface goes away, or the hand: it is let go of, told once, and nothing moves any more.
+// The surface goes away, or the hand: it is let go of, reported once, and nothing moves any more.
 TEST(GripBadInput, IsLetGoOfWhenSurfaceOrHandGo)
 {
   using Trouble = std::function<void(Workbench&)>;
@@ -122,7 +123,7 @@ TEST(GripBadInput, IsLetGoOfWhenSurfaceOrHandGo)
     const Point place = bench.Place(bench.Part);
     EXPECT_NEAR(place[2], 0.01, Clearance) << name << ": where the hand has left it";
 
-    // And the scene goes on: shown, there and open again the part is felt from its front.
+    // And the scene goes on: shown, there and open again the part is touched from its front.
     bench.Device->SetButtons(0);
     bench.Scene->SetClutched(false);
     bench.Scene->SetDevice(bench.Device);
@@ -159,7 +160,7 @@ TEST(GripBadInput, APartThatItsAssemblyDropsIsLetGoOf)
 }
 
 // Other points, other cells, nothing at all: it is carried on, and the hand stays outside.
-TEST(GripBadInput, AGeometryThatChangesMeanwhileIsFeltWhenItIsLetGo)
+TEST(GripBadInput, AGeometryThatChangesMeanwhileIsTouchedWhenItIsLetGo)
 {
   for (const bool before : { true, false }) // its end, or with it
   {
@@ -257,7 +258,7 @@ TEST(GripBadInput, APartThatDeformsMeanwhileIsNeverEntered)
     {
       bench.Scene->Step(1);
       ASSERT_GT(Length(bench.GodObject() - middle), 0.99 * std::min(before, radius)) << round;
-      ASSERT_FALSE(bench.Scene->GetSqueezed());
+      ASSERT_FALSE(bench.Scene->GetServo()->GetReadings()->GetSqueezed());
     }
   }
   EXPECT_EQ(gripped, 72);

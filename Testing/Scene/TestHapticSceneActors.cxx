@@ -4,6 +4,7 @@
 #include "vtkAssembly.h"
 #include "vtkGodObjectActor.h"
 #include "vtkGodObjectFilter.h"
+#include "vtkHapticSurfaces.h"
 #include "vtkHapticView.h"
 #include "vtkMatrix4x4.h"
 #include "vtkPlane.h"
@@ -125,7 +126,7 @@ TEST(HapticSceneActors, AnActorWithoutMapperOrInputIsAnErrorTillItHasOne)
   hand.MoveTo(0.01);
   EXPECT_EQ(errors.Count, 1);
   hand.MoveTo(0.011);
-  EXPECT_EQ(errors.Count, 1) << "told once";
+  EXPECT_EQ(errors.Count, 1) << "reported once";
   vtkNew<vtkPolyDataMapper> mapper;
   actor->SetMapper(mapper);
   hand.MoveTo(0.01);
@@ -133,7 +134,7 @@ TEST(HapticSceneActors, AnActorWithoutMapperOrInputIsAnErrorTillItHasOne)
   mapper->SetInputData(MakeTable(0.0));
   hand.MoveTo(0.011);
   EXPECT_EQ(errors.Count, 2);
-  EXPECT_TRUE(hand.Scene->IsSurfaceTouchable(id));
+  EXPECT_TRUE(hand.Scene->GetSurfaces()->IsTouchable(id));
 }
 
 TEST(HapticSceneActors, TheGodObjectActorShowsTheStateAndStaysOutOfBoundsAndPicks)
@@ -261,7 +262,7 @@ TEST(HapticSceneActors, PlanesThatCutAllAwayLeaveNothingAndAreNoError)
   opposite->SetOrigin(0.0, 0.0, 0.01);
   cut.Mapper->AddClippingPlane(opposite);
   EXPECT_FALSE(cut.IsThere(1.0)) << "from the start";
-  EXPECT_FALSE(cut.Hand.Scene->IsSurfaceTouchable(cut.Id));
+  EXPECT_FALSE(cut.Hand.Scene->GetSurfaces()->IsTouchable(cut.Id));
   opposite->SetOrigin(0.0, 0.0, -0.045);
   EXPECT_TRUE(cut.IsThere(1.0)) << "a ring is left";
   opposite->SetOrigin(0.0, 0.0, 0.01);

@@ -8,6 +8,7 @@
 #include "vtkGeometryFilter.h"
 #include "vtkGodObjectFilter.h"
 #include "vtkHapticProbe.h"
+#include "vtkHapticSurfaces.h"
 #include "vtkImageData.h"
 #include "vtkMatrix4x4.h"
 #include "vtkMultiBlockDataSet.h"
@@ -40,7 +41,7 @@ struct PressingHand : LedHand
     this->MoveTo(-0.005);
     EXPECT_TRUE(this->Scene->GetTouching());
   }
-  /// The next tick's, as the scene tells it and as the device got it [N].
+  /// The next tick's, as the scene reports it and as the device got it [N].
   double NextForce()
   {
     this->Scene->Step(1);
@@ -70,7 +71,7 @@ vtkSmartPointer<vtkPolyData> MakeTriangle(const double corners[3][3])
 }
 }
 
-TEST(HapticSceneBadInput, ASurfaceTakenAwayWhileTouchedIsFeltNoMore)
+TEST(HapticSceneBadInput, ASurfaceTakenAwayWhileTouchedHoldsNoMore)
 {
   const std::function<void(PressingHand&)> ways[] = {
     [](PressingHand& hand) { hand.Scene->RemoveSurface(hand.Actor); },
@@ -91,7 +92,8 @@ TEST(HapticSceneBadInput, ASurfaceTakenAwayWhileTouchedIsFeltNoMore)
     EXPECT_FALSE(hand.Scene->GetTouching()) << "way " << index;
     EXPECT_EQ(hand.Scene->GetProbe()->GetSurface(), -1) << "way " << index;
     EXPECT_EQ(ends.Count, 1) << "way " << index;
-    EXPECT_EQ(errors.Count, index >= 4 ? 1 : 0) << "only a metre in a tick is told; way " << index;
+    EXPECT_EQ(errors.Count, index >= 4 ? 1 : 0)
+      << "only a metre in a tick is reported; way " << index;
   }
 }
 
@@ -137,7 +139,7 @@ TEST(HapticSceneBadInput, ASurfaceSpoiltWhileTouchedStaysAsItWasAndSaysWhy)
 {
   struct Way
   {
-    const char* Told;
+    const char* Message;
     std::function<void(PressingHand&)> Spoil;
   };
   const Way ways[] = {
@@ -164,23 +166,23 @@ TEST(HapticSceneBadInput, ASurfaceSpoiltWhileTouchedStaysAsItWasAndSaysWhy)
   {
     PressingHand hand;
     EventCounter errors(hand.Scene, vtkCommand::ErrorEvent);
-    EventCounter told(hand.Scene, vtkHapticScene::SurfaceErrorEvent);
+    EventCounter reports(hand.Scene, vtkHapticScene::SurfaceErrorEvent);
     way.Spoil(hand);
     const auto index = &way - ways;
     EXPECT_NEAR(hand.NextForce(), Pressed, Near) << "way " << index;
     hand.NextForce();
-    EXPECT_EQ(told.Count, 1) << "once, way " << index;
+    EXPECT_EQ(reports.Count, 1) << "once, way " << index;
     EXPECT_EQ(errors.Count, 1) << "way " << index;
     const std::string message = hand.Scene->GetErrorMessage();
     EXPECT_NE(message.find("Surface 0: "), std::string::npos) << message;
-    EXPECT_NE(message.find(way.Told), std::string::npos) << message;
+    EXPECT_NE(message.find(way.Message), std::string::npos) << message;
     EXPECT_NE(message.find("stays in force"), std::string::npos) << message;
     hand.MoveTo(0.01);
     EXPECT_EQ(hand.Scene->GetForce()[2], 0.0) << "way " << index;
   }
 }
 
-TEST(HapticSceneBadInput, FlatAndSinglePointSurfacesAreErrorsAndNothingIsFelt)
+TEST(HapticSceneBadInput, FlatAndSinglePointSurfacesAreErrorsAndNothingHolds)
 {
   const double line[3][3] = { { -1, 0, 0 }, { 0, 0, 0 }, { 1, 0, 0 } };
   const double point[3][3] = { { 0, 0, 0 }, { 0, 0, 0 }, { 0, 0, 0 } };
@@ -201,7 +203,7 @@ TEST(HapticSceneBadInput, FlatAndSinglePointSurfacesAreErrorsAndNothingIsFelt)
     EXPECT_NE(
       std::string(hand.Scene->GetErrorMessage()).find("It cannot be touched."), std::string::npos)
       << hand.Scene->GetErrorMessage();
-    EXPECT_FALSE(hand.Scene->IsSurfaceTouchable(id));
+    EXPECT_FALSE(hand.Scene->GetSurfaces()->IsTouchable(id));
     EXPECT_FALSE(hand.Scene->GetTouching());
     EXPECT_EQ(hand.Scene->GetForce()[2], 0.0);
     EXPECT_FALSE(hand.Scene->FitWorkspace()) << "there is nothing to fit";

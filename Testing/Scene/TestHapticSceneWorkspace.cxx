@@ -5,6 +5,8 @@
 #include "vtkCamera.h"
 #include "vtkCubeSource.h"
 #include "vtkDoubleArray.h"
+#include "vtkHapticReadings.h"
+#include "vtkHapticSurfaces.h"
 #include "vtkMath.h"
 #include "vtkMatrix4x4.h"
 #include "vtkPointData.h"
@@ -71,7 +73,7 @@ TEST(HapticSceneWorkspace, WithACameraTheDevicesZComesTowardsTheViewer)
   ExpectPoint(matrix, up, cameraUp);
 }
 
-TEST(HapticSceneWorkspace, FitsTheSurfacesAndFeelsAlikeAtAnyScale)
+TEST(HapticSceneWorkspace, FitsTheSurfacesAndHasTheSameForcesAtAnyScale)
 {
   double force[2];
   int run = 0;
@@ -419,7 +421,7 @@ TEST(HapticSceneWorkspace, ARunningHandThatSinksIsNotLetIn)
       ASSERT_TRUE(scene->Engage()) << scene->GetErrorMessage();
       const auto runUntil = [&](double time)
       {
-        while (scene->GetServo()->GetTime() < time && scene->IsEngaged())
+        while (scene->GetServo()->GetReadings()->GetTime() < time && scene->IsEngaged())
         {
           scene->Update();
           std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -431,7 +433,7 @@ TEST(HapticSceneWorkspace, ARunningHandThatSinksIsNotLetIn)
       change(scene);
       for (int i = 0; i < 6; ++i)
       {
-        runUntil(scene->GetServo()->GetTime() + 0.01);
+        runUntil(scene->GetServo()->GetReadings()->GetTime() + 0.01);
         scene->Update();
         EXPECT_GT(vtkMath::Norm(scene->GetGodObject()), 0.99 * Radius);
       }
@@ -471,7 +473,7 @@ struct BallInMillimetres
     this->Hand.Device->SetWorkspaceBounds(-0.1, 0.1, -0.1, 0.1, -0.1, 0.1);
     this->Ball->SetRadius(50.0);
     this->Id = this->Hand.Scene->AddSurface(this->Ball->GetOutputPort());
-    this->Hand.Scene->SetSurfaceName(this->Id, "ball.stl");
+    this->Hand.Scene->GetSurfaces()->SetName(this->Id, "ball.stl");
   }
 };
 }
@@ -519,7 +521,7 @@ TEST(HapticSceneWorkspace, EachRemedyForALargeSurfaceHelps)
       scene->SetWorkspaceTransform(millimetres);
     },
     [](vtkHapticScene* scene) { scene->ScaleWorkspace(1000.0); },
-    [](vtkHapticScene* scene) { scene->SetUnitLength(0.001); },
+    [](vtkHapticScene* scene) { scene->GetWorkspace()->SetUnitLength(0.001); },
   };
   for (const auto& remedy : remedies)
   {
@@ -554,7 +556,7 @@ TEST(HapticSceneWorkspace, ASurfaceFarSmallerThanTheDeviceReachesIsReportedOnce)
   EXPECT_EQ(warnings.Texts.size(), 1U);
 }
 
-TEST(HapticSceneWorkspace, ASmallSurfaceBesideALargeOneIsNotReported)
+TEST(HapticSceneWorkspace, ASmallSurfaceNextToALargeOneIsNotReported)
 {
   BallInMillimetres scene;
   scene.Ball->SetRadius(0.0005);
@@ -567,8 +569,8 @@ TEST(HapticSceneWorkspace, ASmallSurfaceBesideALargeOneIsNotReported)
 TEST(HapticSceneWorkspace, TheUnitGivesSurfacesTheirTrueSizeInTheHand)
 {
   BallInMillimetres scene;
-  scene.Hand.Scene->SetUnitLength(0.001);
-  EXPECT_EQ(scene.Hand.Scene->GetUnitLength(), 0.001);
+  scene.Hand.Scene->GetWorkspace()->SetUnitLength(0.001);
+  EXPECT_EQ(scene.Hand.Scene->GetWorkspace()->GetUnitLength(), 0.001);
   scene.Hand.Device->SetPosition(0.0, 0.0, 0.06);
   scene.Hand.Scene->Step(1);
   scene.Hand.Device->SetPosition(0.0, 0.0, 0.048);
@@ -581,14 +583,14 @@ TEST(HapticSceneWorkspace, TheUnitGivesSurfacesTheirTrueSizeInTheHand)
   EXPECT_NEAR(scene.Hand.Scene->GetWorkspace()->GetScale(), 1000.0, 1e-9);
   vtkNew<vtkMatrix4x4> chosen;
   scene.Hand.Scene->SetWorkspaceTransform(chosen);
-  scene.Hand.Scene->SetUnitLength(0.01);
+  scene.Hand.Scene->GetWorkspace()->SetUnitLength(0.01);
   EXPECT_EQ(scene.Hand.Scene->GetWorkspace()->GetScale(), 1.0) << "what was set stays";
 }
 
 TEST(HapticSceneWorkspace, UnitsThatAreNoneAreErrorsAndNothingJumps)
 {
   BallInMillimetres scene;
-  scene.Hand.Scene->SetUnitLength(0.001);
+  scene.Hand.Scene->GetWorkspace()->SetUnitLength(0.001);
   scene.Hand.Device->SetPosition(0.0, 0.0, 0.06);
   scene.Hand.Scene->Step(1);
   scene.Hand.Device->SetPosition(0.0, 0.0, 0.048);
@@ -597,18 +599,18 @@ TEST(HapticSceneWorkspace, UnitsThatAreNoneAreErrorsAndNothingJumps)
   for (const double bad : { -0.001, std::nan(""), std::numeric_limits<double>::infinity(), 1e-200 })
   {
     EventCounter errors(scene.Hand.Scene, vtkCommand::ErrorEvent);
-    scene.Hand.Scene->SetUnitLength(bad);
+    scene.Hand.Scene->GetWorkspace()->SetUnitLength(bad);
     EXPECT_EQ(errors.Count, 1) << bad;
     EXPECT_NE(
       std::string(scene.Hand.Scene->GetErrorMessage()).find("UnitLength"), std::string::npos)
       << scene.Hand.Scene->GetErrorMessage();
-    EXPECT_EQ(scene.Hand.Scene->GetUnitLength(), 0.001);
+    EXPECT_EQ(scene.Hand.Scene->GetWorkspace()->GetUnitLength(), 0.001);
     scene.Hand.Scene->Step(1);
     EXPECT_EQ(scene.Hand.Scene->GetForce()[2], before) << bad;
   }
   // Not known: metres again, by the law of every change of the workspace. The ball is 100 m then,
   // and a hand that was outside of it does not land inside.
-  scene.Hand.Scene->SetUnitLength(0.0);
+  scene.Hand.Scene->GetWorkspace()->SetUnitLength(0.0);
   EXPECT_STREQ(scene.Hand.Scene->GetErrorMessage(), "");
   scene.Hand.Scene->Step(100);
   const double* const god = scene.Hand.Scene->GetGodObject();

@@ -1,19 +1,18 @@
+#include "../Devices/EventCounter.h"
+#include "ScriptedDevice.h"
 #include "ServoTestTools.h"
-#include "haptics/Devices/MonitoredChannel.h"
 #include "haptics/Servo/ServoStatistics.h"
 #include "haptics/Tick/TickRecord.h"
 #include "vtkHapticSafety.h"
 #include "vtkHapticServo.h"
 #include "vtkSimulatedHapticDevice.h"
 
-#include "vtkCallbackCommand.h"
+#include "vtkHapticReadings.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
-#include "vtkObjectFactory.h"
 
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -24,26 +23,6 @@ using haptics::TickRecord;
 
 namespace
 {
-/// Counts events of a kind; an observed error stays out of the test's output.
-class Listener
-{
-public:
-  Listener(vtkObject* object, unsigned long event)
-    : Object(object)
-  {
-    this->Command->SetClientData(&this->Count);
-    this->Command->SetCallback(
-      [](vtkObject*, unsigned long, void* count, void*) { ++*static_cast<int*>(count); });
-    object->AddObserver(event, this->Command);
-  }
-  ~Listener() { this->Object->RemoveObserver(this->Command); }
-  int Count = 0;
-
-private:
-  vtkObject* Object;
-  vtkNew<vtkCallbackCommand> Command;
-};
-
 /// The simulated device, stroking 2 mm below a plane at z = 0 for 1 s or more.
 class HapticServo : public ::testing::Test
 {
@@ -93,15 +72,15 @@ TEST_F(HapticServo, StrokesAPlaneInVirtualTime)
   double force[3];
   double hip[3];
   double god[3];
-  this->Servo->GetForce(force);
-  this->Servo->GetHapticInterfacePoint(hip);
-  this->Servo->GetGodObject(god);
+  this->Servo->GetReadings()->GetForce(force);
+  this->Servo->GetReadings()->GetHapticInterfacePoint(hip);
+  this->Servo->GetReadings()->GetGodObject(god);
   EXPECT_NEAR(force[2], 1.0, 2e-3) << "500 N/m, 2 mm deep, standing off by a millionth of the size";
   EXPECT_NEAR(hip[2], -0.002, 1e-12);
   EXPECT_NEAR(god[2], 0.0, 4e-6);
-  EXPECT_EQ(this->Servo->GetNumberOfConstraints(), 1);
-  EXPECT_NEAR(this->Servo->GetPenetration(), 0.002, 4e-6);
-  EXPECT_NEAR(this->Servo->GetTime(), 0.999, 1e-12);
+  EXPECT_EQ(this->Servo->GetReadings()->GetNumberOfConstraints(), 1);
+  EXPECT_NEAR(this->Servo->GetReadings()->GetPenetration(), 0.002, 4e-6);
+  EXPECT_NEAR(this->Servo->GetReadings()->GetTime(), 0.999, 1e-12);
   EXPECT_NEAR(this->DeviceForce(), 1.0, 2e-3) << "the device was asked for the same";
 }
 
@@ -131,16 +110,16 @@ TEST_F(HapticServo, HasExactPeriodsInVirtualTime)
   this->Servo->SetRate(500.0);
   ASSERT_EQ(this->Servo->Step(100), 100);
   EXPECT_EQ(this->Servo->GetNumberOfTicks(), 100);
-  EXPECT_EQ(this->Servo->GetNumberOfMissedTicks(), 0);
-  EXPECT_NEAR(this->Servo->GetMeasuredRate(), 500.0, 1e-6);
-  EXPECT_NEAR(this->Servo->GetPeriodRatio(), 0.002, 1e-12);
-  EXPECT_NEAR(this->Servo->GetMaximumPeriod(), 0.002, 1e-12);
-  EXPECT_NEAR(this->Servo->GetTime(), 99 * 0.002, 1e-12);
+  EXPECT_EQ(this->Servo->GetReadings()->GetNumberOfMissedTicks(), 0);
+  EXPECT_NEAR(this->Servo->GetReadings()->GetMeasuredRate(), 500.0, 1e-6);
+  EXPECT_NEAR(this->Servo->GetReadings()->GetPeriodRatio(), 0.002, 1e-12);
+  EXPECT_NEAR(this->Servo->GetReadings()->GetMaximumPeriod(), 0.002, 1e-12);
+  EXPECT_NEAR(this->Servo->GetReadings()->GetTime(), 99 * 0.002, 1e-12);
 }
 
 TEST_F(HapticServo, StrokesAPlaneInRealTime)
 {
-  Listener changes(this->Servo, vtkHapticServo::StateChangedEvent);
+  EventCounter changes(this->Servo, vtkHapticServo::StateChangedEvent);
   ASSERT_TRUE(this->Servo->Start()) << this->Servo->GetErrorMessage();
   EXPECT_TRUE(this->Servo->IsRunning());
   EXPECT_EQ(this->Servo->GetState(), vtkHapticServo::Running);
@@ -156,7 +135,8 @@ TEST_F(HapticServo, StrokesAPlaneInRealTime)
   const auto ticks = static_cast<std::size_t>(this->Servo->GetNumberOfTicks());
   ASSERT_GE(ticks, 1000u);
   EXPECT_EQ(
-    records.size() + static_cast<std::size_t>(this->Servo->GetNumberOfLostRecords()), ticks);
+    records.size() + static_cast<std::size_t>(this->Servo->GetReadings()->GetNumberOfLostRecords()),
+    ticks);
   std::size_t touching = 0;
   for (const TickRecord& record : records)
   {
@@ -164,8 +144,10 @@ TEST_F(HapticServo, StrokesAPlaneInRealTime)
     ASSERT_LE(record.Force[2], 1.0 + 2e-3);
   }
   EXPECT_GT(touching, records.size() / 2);
-  EXPECT_GE(this->Servo->GetPeriodRatio(), this->Servo->GetMeanPeriod() * (1.0 - 1e-12));
-  EXPECT_LE(this->Servo->GetTickTimeQuantile(0.5), this->Servo->GetTickTimeQuantile(0.999));
+  EXPECT_GE(this->Servo->GetReadings()->GetPeriodRatio(),
+    this->Servo->GetReadings()->GetMeanPeriod() * (1.0 - 1e-12));
+  EXPECT_LE(this->Servo->GetReadings()->GetTickTimeQuantile(0.5),
+    this->Servo->GetReadings()->GetTickTimeQuantile(0.999));
 }
 
 TEST_F(HapticServo, CountsTheSameInItsHistograms)
@@ -173,21 +155,23 @@ TEST_F(HapticServo, CountsTheSameInItsHistograms)
   ASSERT_EQ(this->Servo->Step(200), 200);
   vtkTypeInt64 periods = 0;
   vtkTypeInt64 tickTimes = 0;
-  for (int bin = 0; bin < vtkHapticServo::GetNumberOfHistogramBins(); ++bin)
+  for (int bin = 0; bin < vtkHapticReadings::GetNumberOfHistogramBins(); ++bin)
   {
-    ASSERT_LT(vtkHapticServo::GetHistogramEdge(bin), vtkHapticServo::GetHistogramEdge(bin + 1));
-    periods += this->Servo->GetPeriodCount(bin);
-    tickTimes += this->Servo->GetTickTimeCount(bin);
+    ASSERT_LT(
+      vtkHapticReadings::GetHistogramEdge(bin), vtkHapticReadings::GetHistogramEdge(bin + 1));
+    periods += this->Servo->GetReadings()->GetPeriodCount(bin);
+    tickTimes += this->Servo->GetReadings()->GetTickTimeCount(bin);
   }
   EXPECT_EQ(periods, 199);
   EXPECT_EQ(tickTimes, 200);
-  EXPECT_EQ(this->Servo->GetPeriodCount(-1), 0);
-  EXPECT_EQ(this->Servo->GetPeriodCount(vtkHapticServo::GetNumberOfHistogramBins()), 0);
+  EXPECT_EQ(this->Servo->GetReadings()->GetPeriodCount(-1), 0);
+  EXPECT_EQ(
+    this->Servo->GetReadings()->GetPeriodCount(vtkHapticReadings::GetNumberOfHistogramBins()), 0);
 }
 
-TEST_F(HapticServo, TellsThatTheDeviceWasClosedWhileItRan)
+TEST_F(HapticServo, ReportsThatTheDeviceWasClosedWhileItRan)
 {
-  Listener errors(this->Servo, vtkCommand::ErrorEvent);
+  EventCounter errors(this->Servo, vtkCommand::ErrorEvent);
   ASSERT_TRUE(this->Servo->Start()) << this->Servo->GetErrorMessage();
   this->WaitForTicks(150);
   this->Device->Close();
@@ -196,7 +180,7 @@ TEST_F(HapticServo, TellsThatTheDeviceWasClosedWhileItRan)
   EXPECT_EQ(errors.Count, 1);
   EXPECT_NE(std::string(this->Servo->GetErrorMessage()).find("device"), std::string::npos);
   double force[3] = { 1.0, 1.0, 1.0 };
-  this->Servo->GetForce(force);
+  this->Servo->GetReadings()->GetForce(force);
   EXPECT_EQ(std::hypot(force[0], force[1], force[2]), 0.0);
   EXPECT_EQ(this->DeviceForce(), 0.0);
 
@@ -207,7 +191,7 @@ TEST_F(HapticServo, TellsThatTheDeviceWasClosedWhileItRan)
 
 TEST_F(HapticServo, StopsStepsAtAClosedDevice)
 {
-  Listener errors(this->Servo, vtkCommand::ErrorEvent);
+  EventCounter errors(this->Servo, vtkCommand::ErrorEvent);
   ASSERT_EQ(this->Servo->Step(200), 200);
   this->Device->Close();
   EXPECT_EQ(this->Servo->Step(10), 0);
@@ -234,7 +218,7 @@ TEST_F(HapticServo, LimitsStiffnessAndForceToTheDevices)
 
 TEST_F(HapticServo, RefusesSettingsOutOfRangeAndKeepsTheOldOnes)
 {
-  Listener errors(this->Servo, vtkCommand::ErrorEvent);
+  EventCounter errors(this->Servo, vtkCommand::ErrorEvent);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   this->Servo->SetStiffness(-1.0);
   this->Servo->SetStiffness(nan);
@@ -277,12 +261,12 @@ TEST_F(HapticServo, MovesTheHandThroughTheWorkspaceTransform)
   ASSERT_EQ(this->Servo->Step(1000), 1000);
   double device[3];
   double hip[3];
-  this->Servo->GetDevicePosition(device);
-  this->Servo->GetHapticInterfacePoint(hip);
+  this->Servo->GetReadings()->GetDevicePosition(device);
+  this->Servo->GetReadings()->GetHapticInterfacePoint(hip);
   EXPECT_NEAR(hip[0], 1000.0 * device[0] + 5.0, 1e-9);
   EXPECT_NEAR(hip[1], 1000.0 * device[1] + 6.0, 1e-9);
   EXPECT_NEAR(hip[2], -2.0, 1e-9);
-  EXPECT_NEAR(this->DeviceForce(), 1.0, 2e-3) << "the hand feels metres, whatever the world's unit";
+  EXPECT_NEAR(this->DeviceForce(), 1.0, 2e-3) << "the device has metres, whatever the world's unit";
   vtkNew<vtkMatrix4x4> back;
   this->Servo->GetWorkspaceTransform(back);
   EXPECT_NEAR(back->GetElement(1, 3), 6.0, 1e-12);
@@ -319,14 +303,15 @@ TEST_F(HapticServo, HasAWatchdogThatWaitsForTheNextTickToBeDue)
   ASSERT_TRUE(this->Servo->Start());
   this->WaitForTicks(20);
   this->Servo->Stop();
-  EXPECT_LT(this->Servo->GetNumberOfHalts(), 10) << "not between every two ticks; on a busy "
-                                                    "machine after some";
+  EXPECT_LT(this->Servo->GetReadings()->GetNumberOfHalts(), 10)
+    << "not between every two ticks; on a busy "
+       "machine after some";
 }
 
 TEST_F(HapticServo, DoesNotStartWithoutAnOpenDevice)
 {
   vtkNew<vtkHapticServo> servo;
-  Listener errors(servo, vtkCommand::ErrorEvent);
+  EventCounter errors(servo, vtkCommand::ErrorEvent);
   EXPECT_FALSE(servo->Start());
   EXPECT_NE(std::string(servo->GetErrorMessage()).find("SetDevice"), std::string::npos);
   this->Device->Close();
@@ -340,7 +325,7 @@ TEST_F(HapticServo, DoesNotStartWithoutAnOpenDevice)
 
 TEST_F(HapticServo, DoesNotStepWhileItRuns)
 {
-  Listener errors(this->Servo, vtkCommand::ErrorEvent);
+  EventCounter errors(this->Servo, vtkCommand::ErrorEvent);
   ASSERT_TRUE(this->Servo->Start());
   EXPECT_EQ(this->Servo->Step(1), 0);
   EXPECT_EQ(errors.Count, 1);
@@ -363,50 +348,20 @@ TEST_F(HapticServo, AsksForNoForceWhenItsDeviceIsReplacedOrItIsDestroyed)
   EXPECT_EQ(this->DeviceForce(), 0.0);
 }
 
-/// A device that any servo may have next, whatever became of the last one.
-class BrokenDevice : public vtkHapticDevice
-{
-public:
-  static BrokenDevice* New();
-  vtkTypeMacro(BrokenDevice, vtkHapticDevice);
-  bool Open() override
-  {
-    this->BecomeReady(this->Hand);
-    return true;
-  }
-  void Close() override { this->BecomeClosed(); }
-
-  class Channel : public haptics::MonitoredChannel
-  {
-  public:
-    std::atomic<bool> IsBroken{ false };
-
-  protected:
-    bool ReadDevice(double, haptics::DeviceSample& sample) noexcept override
-    {
-      sample.Position = { 0.0, 0.0, this->IsBroken ? std::nan("") : 0.01 };
-      return true;
-    }
-    void WriteDevice(const std::array<double, 3>&) noexcept override {}
-  };
-  const std::shared_ptr<Channel> Hand = std::make_shared<Channel>();
-};
-vtkStandardNewMacro(BrokenDevice);
-
 TEST_F(HapticServo, LeavesADeviceThatItGaveUpAlone)
 {
-  vtkNew<BrokenDevice> device;
+  vtkNew<ScriptedDevice> device;
   ASSERT_TRUE(device->Open());
-  Listener errors(this->Servo, vtkCommand::ErrorEvent);
+  EventCounter errors(this->Servo, vtkCommand::ErrorEvent);
   this->Servo->SetDevice(device);
   this->Servo->GetSafety()->SetWatchdogTime(0.025);
   ASSERT_TRUE(this->Servo->Start());
   this->WaitForTicks(20);
-  device->Hand->IsBroken = true;
+  device->Hand->Height = std::nan("");
   this->WaitForTicks(1000000);
   ASSERT_EQ(this->Servo->GetState(), vtkHapticServo::InvalidPosition);
 
-  device->Hand->IsBroken = false;
+  device->Hand->Height = 0.01;
   vtkNew<vtkHapticServo> next;
   next->SetDevice(device);
   next->SetStallLimit(60.0);
@@ -417,7 +372,7 @@ TEST_F(HapticServo, LeavesADeviceThatItGaveUpAlone)
   EXPECT_FALSE(device->Hand->IsHalted()) << "by the watchdog of the servo before";
 }
 
-TEST_F(HapticServo, TellsByUpdateWhetherThereIsAnythingNew)
+TEST_F(HapticServo, UpdateReturnsWhetherThereIsAnythingNew)
 {
   EXPECT_FALSE(this->Servo->Update());
   ASSERT_TRUE(this->Servo->Start());

@@ -1,4 +1,5 @@
 #include "SceneTestTools.h"
+#include "TraceComparison.h"
 #include "haptics/Tick/TickRecord.h"
 
 #include "vtkActor.h"
@@ -8,6 +9,7 @@
 #include "vtkGodObjectFilter.h"
 #include "vtkHapticLandmarks.h"
 #include "vtkHapticProbe.h"
+#include "vtkHapticSurfaces.h"
 #include "vtkMath.h"
 #include "vtkMatrix4x4.h"
 #include "vtkPointData.h"
@@ -43,22 +45,6 @@ struct TableActor : LedHand
   std::uint64_t Generation() { return this->Scene->GetServo()->GetLatestRecord().Generation; }
 };
 
-/// The largest change of the force from one tick to the next in a trace [N].
-double LargestForceStep(vtkPolyData* trace)
-{
-  vtkDataArray* forces = trace->GetPointData()->GetArray("Force");
-  double largest = 0.0;
-  for (vtkIdType i = 1; i < forces->GetNumberOfTuples(); ++i)
-  {
-    double before[3];
-    double after[3];
-    forces->GetTuple(i - 1, before);
-    forces->GetTuple(i, after);
-    largest = std::max(largest, std::sqrt(vtkMath::Distance2BetweenPoints(before, after)));
-  }
-  return largest;
-}
-
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -81,8 +67,8 @@ TEST(MovingActors, OneThatIsDraggedBuildsAndPublishesNothing)
 
 //       hand held at 0 ---------o
 //                               :
-//       table  ---------------------------   rises 30 mm/s, told 30 times a second
-TEST(MovingActors, ARisingTableIsFeltWithoutSteps)
+//       table  ---------------------------   rises 30 mm/s, updated 30 times a second
+TEST(MovingActors, ARisingTableGivesAForceWithoutSteps)
 {
   TableActor hand;
   hand.Actor->SetPosition(0.0, 0.0, -0.003);
@@ -96,7 +82,7 @@ TEST(MovingActors, ARisingTableIsFeltWithoutSteps)
   }
   EXPECT_TRUE(hand.Scene->GetTouching());
   EXPECT_NEAR(hand.GodObjectHeight(), 0.013, 0.0011) << "the hand is pushed, an update behind";
-  EXPECT_LE(LargestForceStep(hand.Scene->GetTrace()), 0.05);
+  EXPECT_LE(haptics::testing::LargestForceStep(hand.Scene->GetTrace()), 0.05);
 }
 
 TEST(MovingActors, AnUpdateThatComesLateFindsTheTableWaiting)
@@ -109,7 +95,7 @@ TEST(MovingActors, AnUpdateThatComesLateFindsTheTableWaiting)
     hand.Scene->Step(33);
   }
   hand.Scene->Step(200);
-  EXPECT_NEAR(hand.GodObjectHeight(), 0.005, Clearance) << "not beyond where it was told to be";
+  EXPECT_NEAR(hand.GodObjectHeight(), 0.005, Clearance) << "not beyond where it was sent";
 }
 
 TEST(MovingActors, ScaleIsBakedOnceAndTurningItCostsNothing)
@@ -310,7 +296,7 @@ TEST(MovingActors, RestingOnATableThatMovesIsNoSlide)
   EXPECT_EQ(slides.Count, 1) << "it was drawn away sideways under the hand";
 }
 
-TEST(MovingActors, AMatrixThatIsNoGoodIsToldOnceAndTheTableStaysWhereItWas)
+TEST(MovingActors, ABadMatrixIsReportedOnceAndTheTableStaysWhereItWas)
 {
   TableActor hand;
   hand.Actor->SetPosition(0.0, 0.0, 0.001);
@@ -346,26 +332,26 @@ TEST(MovingActors, OneThatComesBackFromAScaleOfZeroIsTouched)
   EventCounter errors(hand.Scene, vtkCommand::ErrorEvent);
   hand.MoveTo(0.01);
   EXPECT_EQ(errors.Count, 1);
-  EXPECT_FALSE(hand.Scene->IsSurfaceTouchable(id));
+  EXPECT_FALSE(hand.Scene->GetSurfaces()->IsTouchable(id));
   actor->SetScale(1.0);
   hand.MoveTo(0.01);
-  EXPECT_TRUE(hand.Scene->IsSurfaceTouchable(id));
-  EXPECT_FALSE(hand.Scene->IsSurfaceOutdated(id)) << "it is where it is shown";
+  EXPECT_TRUE(hand.Scene->GetSurfaces()->IsTouchable(id));
+  EXPECT_FALSE(hand.Scene->GetSurfaces()->IsOutdated(id)) << "it is where it is shown";
 }
 
 TEST(MovingActors, OneThatComesBackInAnotherSizeIsUpToDate)
 {
   TableActor hand;
-  const int id = hand.Scene->GetSurfaceId(0);
+  const int id = hand.Scene->GetSurfaces()->GetId(0);
   EventCounter errors(hand.Scene, vtkCommand::ErrorEvent);
   for (const double size : { 2.0, 0.5 })
   {
     hand.Actor->SetScale(0.0);
     hand.Scene->Step(10);
-    EXPECT_TRUE(hand.Scene->IsSurfaceOutdated(id)) << "what was touched before stays";
+    EXPECT_TRUE(hand.Scene->GetSurfaces()->IsOutdated(id)) << "what was touched before stays";
     hand.Actor->SetScale(size); // is baked
     hand.Scene->Step(10);
-    EXPECT_FALSE(hand.Scene->IsSurfaceOutdated(id));
+    EXPECT_FALSE(hand.Scene->GetSurfaces()->IsOutdated(id));
   }
   EXPECT_EQ(errors.Count, 2) << "once for each time";
 }

@@ -17,6 +17,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -83,7 +84,7 @@ std::vector<TickScene> Scenes()
     properties->SetStaticFriction(0.5);
     properties->SetDynamicFriction(0.3);
   };
-  const auto felt = [](vtkHapticProperties* properties)
+  const auto material = [](vtkHapticProperties* properties)
   {
     properties->SetStiffness(320.0);
     properties->SetDamping(0.7);
@@ -101,14 +102,54 @@ std::vector<TickScene> Scenes()
   }
   return { { "plain", MakeTable(0.0), plain, Strokes(0.02, 0.003) },
     { "valley", MakeValley(), plain, along }, { "rough valley", MakeValley(), rough, along },
-    { "felt valley", MakeValley(), felt, along },
+    { "valley with material", MakeValley(), material, along },
     { "friction", MakeTable(0.0), rough, Strokes(0.02, 0.003) },
-    { "properties", MakeTable(0.0), felt, Strokes(0.02, 0.003) },
+    { "properties", MakeTable(0.0), material, Strokes(0.02, 0.003) },
     { "profile", MakeTable(0.0), button, Strokes(0.02, 0.004) } };
 }
 
+/// A height field of steep facets, where a coarse step can end in another valley than a fine one.
+vtkSmartPointer<vtkPolyData> MakeRoughTable()
+{
+  constexpr int size = 40;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> height(-0.004, 0.004);
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkCellArray> cells;
+  for (int i = 0; i <= size; ++i)
+  {
+    for (int j = 0; j <= size; ++j)
+    {
+      points->InsertNextPoint(0.2 * i / size - 0.1, 0.2 * j / size - 0.1, height(random));
+      const vtkIdType at = points->GetNumberOfPoints() - 1;
+      if (i > 0 && j > 0)
+      {
+        cells->InsertNextCell({ at - size - 2, at - 1, at });
+        cells->InsertNextCell({ at - size - 2, at, at - size - 1 });
+      }
+    }
+  }
+  auto table = vtkSmartPointer<vtkPolyData>::New();
+  table->SetPoints(points);
+  table->SetPolys(cells);
+  return table;
+}
+
+/// Strokes side by side over it.
+std::vector<Point> RoughStrokes()
+{
+  std::vector<Point> path;
+  for (const double y : { -0.06, -0.03, 0.0, 0.03, 0.06 })
+  {
+    const std::vector<Point> strokes = Strokes(y, 0.01);
+    path.insert(path.end(), strokes.begin(), strokes.end());
+  }
+  return path;
+}
+
 /// The same path by the filter.
-vtkSmartPointer<vtkPolyData> TraceOf(const TickScene& scene, double scale)
+vtkSmartPointer<vtkPolyData> TraceOf(const TickScene& scene, double scale, int substeps = 1)
 {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
@@ -123,15 +164,18 @@ vtkSmartPointer<vtkPolyData> TraceOf(const TickScene& scene, double scale)
   trace->SetSurfaceData(scene.Surface);
   trace->PassSurfaceArraysOff(); // what a scene has none of unless it is asked
   trace->SetWorldToDeviceScale(1.0 / scale);
+  trace->SetSubstepLimit(substeps);
   scene.SetProperties(trace->GetProperties());
   trace->Update();
   return trace->GetOutput();
 }
 
 /// And by a servo, whose device's own scale is `scale` world units a metre.
-vtkSmartPointer<vtkPolyData> RecordOf(const TickScene& scene, double scale, bool isGuarded)
+vtkSmartPointer<vtkPolyData> RecordOf(
+  const TickScene& scene, double scale, bool isGuarded, int substeps = 1)
 {
   LedHand hand;
+  hand.Scene->GetServo()->SetSubstepLimit(substeps);
   hand.Device->SetDamping(0.0); // nothing limits the stiffness that it does not know
   if (isGuarded)
   {
@@ -220,6 +264,53 @@ TEST(OneTick, FilterAndSceneWriteTheSameArrays)
     }
     EXPECT_EQ(LargestNumberOfConstraints(servo), scene.Surface->GetNumberOfCells()) << scene.Name;
   }
+}
+
+TEST(OneTick, AndFollowTheWayWithinATickInAsManySteps)
+{
+  const TickScene scene{ "rough", MakeRoughTable(), [](vtkHapticProperties*) {}, RoughStrokes() };
+  const auto inOne = TraceOf(scene, 1.0);
+  const auto inSixteen = TraceOf(scene, 1.0, 16);
+  EXPECT_GT(Difference(inOne, inSixteen, "Penetration"), 1e-4);
+  for (const int limit : { 1, 16, 1000 }) // clamped to 16
+  {
+    const auto filter = limit == 1 ? inOne : inSixteen;
+    const auto servo = RecordOf(scene, 1.0, false, limit);
+    for (const char* name : OfTheContact)
+    {
+      EXPECT_EQ(Difference(filter, servo, name), 0.0) << name << ", " << limit;
+    }
+  }
+}
+
+// The setting is the scene's: it acts on the next tick, and on surfaces that come later.
+TEST(OneTick, TheSubstepLimitOutlivesASurfaceAndChangesWhileRunning)
+{
+  LedHand hand;
+  EXPECT_EQ(hand.Scene->GetServo()->GetSubstepLimit(), 1);
+  hand.Scene->GetServo()->SetSubstepLimit(16);
+  const auto stroke = [&](int substeps)
+  {
+    const int id = hand.Scene->AddSurface(MakeRoughTable());
+    hand.Scene->StartRecording();
+    for (const Point& p : RoughStrokes())
+    {
+      hand.Device->SetPosition(p[0], p[1], p[2]);
+      hand.Scene->GetServo()->SetSubstepLimit(substeps);
+      hand.Scene->Step(1);
+    }
+    vtkNew<vtkPolyData> copy;
+    copy->DeepCopy(hand.Scene->GetTrace());
+    hand.Scene->RemoveSurface(id);
+    return vtkSmartPointer<vtkPolyData>(copy.Get());
+  };
+  const auto first = stroke(16);
+  const auto inOne = stroke(1);
+  const auto again = stroke(16);
+  EXPECT_LT(Difference(first, again, "Penetration"), 1e-12);
+  EXPECT_GT(Difference(first, inOne, "Penetration"), 1e-4);
+  hand.Scene->GetServo()->SetSubstepLimit(-3);
+  EXPECT_EQ(hand.Scene->GetServo()->GetSubstepLimit(), 1);
 }
 
 TEST(OneTick, AScaledWorldChangesRoundingsOnly)

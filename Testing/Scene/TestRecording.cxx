@@ -176,7 +176,7 @@ TEST(Recording, IsNotWrittenOverWhileItIsPlayed)
 TEST(Recording, GoldenOnesForcesAreWhatTheyHaveAlwaysBeen)
 {
   // Made by StrokeTheRoof() at a thousand steps of virtual time. A change of the hash is a change
-  // of what every hand feels: accept it only if that is what was meant.
+  // of the forces on every hand: accept it only if that is what was meant.
   const char* source = std::getenv("HAPTICS_SOURCE_DIR");
   ASSERT_TRUE(source) << "set by ctest: the source folder";
   const std::vector<TickRecord> records =

@@ -334,25 +334,25 @@ TEST(RecordingFaults, PlacementsReleasesAndLatencyAreReplayed)
   const std::string name = NewName();
   vtkNew<WhimsicalDevice> hand;
   ASSERT_TRUE(hand->Open());
-  const auto felt = StepOverAPlane(hand, name, 1000);
+  const auto ticks = StepOverAPlane(hand, name, 1000);
   vtkNew<vtkRecordedHapticDevice> recorded;
   recorded->SetFileName(name);
   ASSERT_TRUE(recorded->Open()) << recorded->GetErrorMessage();
   const auto replayed = StepOverAPlane(recorded, "", 1000);
-  ASSERT_EQ(felt.size(), 1000u);
+  ASSERT_EQ(ticks.size(), 1000u);
   ASSERT_EQ(replayed.size(), 1000u);
   std::size_t pushing = 0;
   std::size_t through = 0;
-  for (std::size_t i = 0; i < felt.size(); ++i)
+  for (std::size_t i = 0; i < ticks.size(); ++i)
   {
-    ASSERT_EQ(replayed[i].Force, felt[i].Force) << "tick " << i;
-    ASSERT_EQ(replayed[i].Position, felt[i].Position) << "tick " << i;
-    ASSERT_EQ(replayed[i].Stiffness, felt[i].Stiffness) << "tick " << i;
-    pushing += felt[i].Force[2] > 0.1;
-    through += felt[i].Position[2] < 0.0;
+    ASSERT_EQ(replayed[i].Force, ticks[i].Force) << "tick " << i;
+    ASSERT_EQ(replayed[i].Position, ticks[i].Position) << "tick " << i;
+    ASSERT_EQ(replayed[i].Stiffness, ticks[i].Stiffness) << "tick " << i;
+    pushing += ticks[i].Force[2] > 0.1;
+    through += ticks[i].Position[2] < 0.0;
   }
   EXPECT_GT(pushing, 200u);
   EXPECT_GT(through, 200u) << "was put down below";
-  EXPECT_NEAR(felt.back().Stiffness, 0.9 * 2.0 / (0.0005 + 0.008), 0.1) << "by the latency";
+  EXPECT_NEAR(ticks.back().Stiffness, 0.9 * 2.0 / (0.0005 + 0.008), 0.1) << "by the latency";
 }
 }

@@ -5,6 +5,8 @@
 #include "vtkDoubleArray.h"
 #include "vtkHapticLandmarks.h"
 #include "vtkHapticProbe.h"
+#include "vtkHapticReadings.h"
+#include "vtkHapticSurfaces.h"
 #include "vtkMatrix4x4.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -166,7 +168,7 @@ TEST(SceneEvents, ObserversMayUpdateReleaseAndRemoveAndNobodyIsCalledTwice)
   EXPECT_EQ(diary.Events, " device2 begin end");
 }
 
-TEST(HapticProbe, TellsIdsWeightsAndValuesInTheCellAsItWasGiven)
+TEST(HapticProbe, HasIdsWeightsAndValuesInTheCellAsItWasGiven)
 {
   LedHand hand;
   const int id = hand.Scene->AddSurface(MakeValuedTable());
@@ -245,7 +247,7 @@ TEST(SceneEvents, AButtonDropsALandmarkThoughTheSurfacesChangeBeforeTheSceneLook
 }
 
 /// The read-out of places on a surface far from the origin, and near it.
-TEST(HapticProbe, CoordinatesHaveTheDigitsThatTellPlacesOnTheSurfaceApart)
+TEST(HapticProbe, CoordinatesHaveTheDigitsThatDistinguishPlacesOnTheSurface)
 {
   for (const double far : { 0.0, 5094171.25 })
   {
@@ -285,7 +287,7 @@ TEST(HapticLandmarks, DropListUndoAndExport)
 {
   LedHand hand;
   vtkSmartPointer<vtkPolyData> table = MakeValuedTable();
-  vtkNew<vtkDoubleArray> northing; // more than six digits tell
+  vtkNew<vtkDoubleArray> northing; // more than six digits count
   northing->SetName("Northing");
   northing->SetNumberOfValues(table->GetNumberOfPoints());
   northing->FillValue(4812345.681);
@@ -409,7 +411,7 @@ TEST(HapticLandmarks, TheWayAlongASphereIsTheGreatCircle)
 }
 
 /// On a sheet that is folded: straight through the air, or along it.
-TEST(HapticLandmarks, TheChosenDistanceIsWrittenBesideThem)
+TEST(HapticLandmarks, TheChosenDistanceIsWrittenNextToThem)
 {
   LedHand hand;
   auto sheet = MakeTable(0.0);
@@ -504,7 +506,7 @@ TEST(HapticSceneHand, TheClutchLetsGoAndGoesOnFromThere)
   ASSERT_TRUE(hand.Scene->GetTouching());
   hand.Device->SetButtons(2); // the clutch button
   hand.Scene->Step(1);
-  hand.Device->SetPosition(0.0, 0.0, -0.05); // through the table, and nothing is felt
+  hand.Device->SetPosition(0.0, 0.0, -0.05); // through the table, and nothing holds
   hand.Scene->Step(1);
   EXPECT_TRUE(hand.Scene->GetClutched());
   EXPECT_FALSE(hand.Scene->GetTouching());
@@ -540,7 +542,7 @@ TEST(HapticSceneHand, ScalesAboutTheHandAndRefusesAScaleOfZero)
 //  =========  |     a lid comes down on the hand, through the table, and goes up again
 //      o      v
 //  =========
-TEST(SceneEvents, TellThatSurfacesLeaveTheHandNoPlace)
+TEST(SceneEvents, ReportThatSurfacesLeaveTheHandNoPlace)
 {
   LedHand hand;
   hand.Scene->AddSurface(MakeTable(0.0));
@@ -553,12 +555,12 @@ TEST(SceneEvents, TellThatSurfacesLeaveTheHandNoPlace)
   hand.MoveTo(0.01);
   hand.MoveTo(-0.001);
   ASSERT_GT(hand.Scene->GetForce()[2], 0.0);
-  EXPECT_FALSE(hand.Scene->GetSqueezed());
+  EXPECT_FALSE(hand.Scene->GetServo()->GetReadings()->GetSqueezed());
   Diary diary(hand.Scene);
   lid->SetPosition(0.0, 0.0, -0.003);
   hand.Scene->Step(100);
   EXPECT_EQ(diary.Events, " end squeeze");
-  EXPECT_TRUE(hand.Scene->GetSqueezed());
+  EXPECT_TRUE(hand.Scene->GetServo()->GetReadings()->GetSqueezed());
   EXPECT_EQ(hand.Scene->GetForce()[2], 0.0);
   ASSERT_EQ(diary.Probes.size(), 2U);
   EXPECT_FALSE(diary.Probes.back()->GetTouching());
@@ -567,7 +569,7 @@ TEST(SceneEvents, TellThatSurfacesLeaveTheHandNoPlace)
   lid->SetPosition(0.0, 0.0, 0.02);
   hand.Scene->Step(100);
   EXPECT_EQ(diary.Events, " begin");
-  EXPECT_FALSE(hand.Scene->GetSqueezed());
+  EXPECT_FALSE(hand.Scene->GetServo()->GetReadings()->GetSqueezed());
   EXPECT_GT(hand.Scene->GetForce()[2], 0.0) << "on the side of the table where it was";
 }
 
@@ -579,9 +581,9 @@ TEST(SceneEvents, ProbesAndMessagesCallASurfaceByItsName)
   hand.MoveTo(0.01);
   hand.MoveTo(-0.001);
   EXPECT_EQ(hand.Scene->GetProbe()->GetSurfaceName(), "surface 0");
-  ASSERT_TRUE(hand.Scene->SetSurfaceName(id, "table"));
+  ASSERT_TRUE(hand.Scene->GetSurfaces()->SetName(id, "table"));
   hand.MoveTo(-0.002);
-  EXPECT_EQ(hand.Scene->GetSurfaceName(id), "table");
+  EXPECT_EQ(hand.Scene->GetSurfaces()->GetName(id), "table");
   EXPECT_EQ(hand.Scene->GetProbe()->GetSurfaceName(), "table");
   EXPECT_EQ(hand.Scene->GetProbe()->GetText().rfind("table   cell 0", 0), 0U)
     << hand.Scene->GetProbe()->GetText();
@@ -591,6 +593,6 @@ TEST(SceneEvents, ProbesAndMessagesCallASurfaceByItsName)
   hand.Scene->Step(1);
   EXPECT_EQ(std::string(hand.Scene->GetErrorMessage()).rfind("Surface 0 (table): ", 0), 0U)
     << hand.Scene->GetErrorMessage();
-  EXPECT_FALSE(hand.Scene->SetSurfaceName(7, "none"));
-  EXPECT_EQ(hand.Scene->GetSurfaceName(7), "");
+  EXPECT_FALSE(hand.Scene->GetSurfaces()->SetName(7, "none"));
+  EXPECT_EQ(hand.Scene->GetSurfaces()->GetName(7), "");
 }

@@ -1,10 +1,12 @@
-// The side of each cell of a scene's surface, from its data array to what the hand feels.
+// The side of each cell of a scene's surface, from its data array to the force on the hand.
 #include "SceneTestTools.h"
 
 #include "vtkActor.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkGodObjectFilter.h"
+#include "vtkHapticReadings.h"
+#include "vtkHapticSurfaces.h"
 #include "vtkPoints.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkTrivialProducer.h"
@@ -94,14 +96,14 @@ TEST(SceneSides, StayWithTheirCellsWhereTheActorIsMirroredAndSqueezed)
   EXPECT_FALSE(IsHeldFromBelow(hand, 0.03));
 }
 
-TEST(SceneSides, AreTakenInBesideTheGuiThread)
+TEST(SceneSides, AreTakenInOnAnotherThread)
 {
   LedHand hand;
-  hand.Scene->BackgroundBuildingOn();
+  hand.Scene->GetSurfaces()->BackgroundBuildingOn();
   const int table = hand.Scene->AddSurface(MakeHalfAndHalf());
   hand.Scene->SetSurfacePropertyArray(table, Sides, AtCells, "sides");
   hand.Scene->Update();
-  while (hand.Scene->IsBuilding())
+  while (hand.Scene->GetSurfaces()->IsBuilding())
   {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
     hand.Scene->Update();
@@ -158,7 +160,8 @@ TEST(SceneSides, NothingJumpsWhereTheArrayVanishes)
     }
     double before[3];
     hand.Scene->GetForce(before);
-    ASSERT_NEAR(std::abs(before[2]), 0.002 * hand.Scene->GetServo()->GetCurrentStiffness(), 1e-3);
+    ASSERT_NEAR(
+      std::abs(before[2]), 0.002 * hand.Scene->GetServo()->GetReadings()->GetStiffness(), 1e-3);
     EventCounter errors(hand.Scene, vtkHapticScene::SurfaceErrorEvent);
     EventCounter quiet(hand.Scene, vtkCommand::ErrorEvent);
     geometry->GetCellData()->RemoveArray("sides");
@@ -177,7 +180,7 @@ TEST(SceneSides, NothingJumpsWhereTheArrayVanishes)
   }
 }
 
-TEST(SceneSides, ThatAreNoneAreToldWithTheSurface)
+TEST(SceneSides, ThatAreNoneAreReportedWithTheSurface)
 {
   LedHand hand;
   vtkSmartPointer<vtkPolyData> geometry = MakeHalfAndHalf();

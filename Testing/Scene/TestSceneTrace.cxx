@@ -1,4 +1,5 @@
 // What the trace of a scene says about what was touched: which surface, where on it, and its data.
+#include "../TemporaryFolder.h"
 #include "SceneTestTools.h"
 
 #include "vtkActor.h"
@@ -9,6 +10,7 @@
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
+#include "vtkHapticSurfaces.h"
 #include "vtkHapticTraceRecorder.h"
 #include "vtkInformation.h"
 #include "vtkInformationStringKey.h"
@@ -20,7 +22,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <functional>
 #include <string>
@@ -60,7 +61,7 @@ TEST(SceneTrace, HasTheChosenArraysOfEachSurfaceAndSaysWhich)
   const int low = hand.Scene->AddSurface(TableWithData(0.0, 5.0, 7));
   auto highTable = TableWithData(0.05, -5.0, 8);
   const int high = hand.Scene->AddSurface(highTable);
-  hand.Scene->SetSurfaceName(high, "table, high");
+  hand.Scene->GetSurfaces()->SetName(high, "table, high");
   vtkHapticTraceRecorder* const recorder = hand.Scene->GetTraceRecorder();
   recorder->AddSurfaceArray("Heat");
   recorder->AddSurfaceArray("Part");
@@ -165,7 +166,7 @@ TEST(SceneTrace, HasTheArraysOfASurfaceThatDeformsAtEveryUpdate)
   }
 }
 
-TEST(SceneTrace, BadArraysAreToldOnceAndNothingElseChanges)
+TEST(SceneTrace, BadArraysAreReportedOnceAndNothingElseChanges)
 {
   struct Way
   {
@@ -245,7 +246,7 @@ TEST(SceneTrace, BadArraysAreToldOnceAndNothingElseChanges)
   }
 }
 
-TEST(SceneTrace, ANameThatNoSurfaceHasIsToldAndTheOneThatItHasHelps)
+TEST(SceneTrace, ANameThatNoSurfaceHasIsReportedAndTheOneThatItHasHelps)
 {
   LedHand hand;
   hand.Scene->AddSurface(TableWithData(0.0, 5.0, 7));
@@ -269,7 +270,7 @@ TEST(SceneTrace, IsWrittenAsATableWithTheUnitOfItsLengths)
 {
   LedHand hand;
   hand.Scene->AddSurface(TableWithData(0.0, 5.0, 7));
-  hand.Scene->SetUnitLength(1.0);
+  hand.Scene->GetWorkspace()->SetUnitLength(1.0);
   vtkHapticTraceRecorder* const recorder = hand.Scene->GetTraceRecorder();
   recorder->AddSurfaceArray("Heat");
   hand.MoveTo(0.01);
@@ -278,7 +279,8 @@ TEST(SceneTrace, IsWrittenAsATableWithTheUnitOfItsLengths)
   vtkDataArray* const depth = recorder->GetTrace()->GetPointData()->GetArray("Penetration");
   ASSERT_TRUE(depth->GetInformation()->Has(vtkDataArray::UNITS_LABEL()));
   EXPECT_STREQ(depth->GetInformation()->Get(vtkDataArray::UNITS_LABEL()), "m");
-  const std::string file = ::testing::TempDir() + "scene-trace.csv";
+  const TemporaryFolder folder;
+  const std::string file = folder.File("trace.csv");
   ASSERT_TRUE(recorder->WriteCSV(file.c_str()));
   std::ifstream stream(file);
   std::string names;
@@ -287,10 +289,9 @@ TEST(SceneTrace, IsWrittenAsATableWithTheUnitOfItsLengths)
   std::getline(stream, values);
   EXPECT_EQ(names.substr(names.rfind(',')), ",Heat");
   EXPECT_NEAR(std::stod(values.substr(values.rfind(',') + 1)), 5.05, 1e-9);
-  std::remove(file.c_str());
 
   EventCounter errors(hand.Scene, vtkCommand::ErrorEvent);
-  EXPECT_FALSE(recorder->WriteCSV((::testing::TempDir() + "none/trace.csv").c_str()));
+  EXPECT_FALSE(recorder->WriteCSV(folder.File("none/trace.csv").c_str()));
   EXPECT_EQ(errors.Count, 1);
   EXPECT_NE(
     std::string(hand.Scene->GetErrorMessage()).find("Make its folder first"), std::string::npos)

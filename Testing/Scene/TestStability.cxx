@@ -5,6 +5,7 @@
 #include "vtkHapticServo.h"
 #include "vtkSimulatedHapticDevice.h"
 
+#include "vtkHapticReadings.h"
 #include "vtkNew.h"
 
 #include <gtest/gtest.h>
@@ -155,7 +156,8 @@ TEST(Stability, TheStiffnessLimitKeepsAPlaneStillWhateverIsAskedFor)
     body.Swing(8 * ticks);
     EXPECT_LT(body.Swing(2 * ticks), 0.1 * first)
       << "b = " << damping << " N s/m, T = " << period << " s, delay " << delay << " s";
-    EXPECT_NE(body.Servo->DescribeForceLimits().find("stiffness limit"), std::string::npos);
+    EXPECT_NE(
+      body.Servo->GetReadings()->DescribeForceLimits().find("stiffness limit"), std::string::npos);
   };
   for (const double damping : Dampings)
   {
@@ -199,7 +201,7 @@ TEST(Stability, EveryPresetHoldsAPlaneStillInAHand)
     std::vector<haptics::TickRecord> records;
     servo->DrainRecords(records);
     const double rest = records.back().DevicePosition[2];
-    EXPECT_EQ(servo->GetNumberOfConstraints(), 1);
+    EXPECT_EQ(servo->GetReadings()->GetNumberOfConstraints(), 1);
     for (std::size_t i = records.size() - 500; i < records.size(); ++i)
     {
       ASSERT_NEAR(records[i].DevicePosition[2], rest, 3.0 * 63.5e-6) << "preset " << preset;

@@ -4,6 +4,7 @@
 
 #include "vtkActor.h"
 #include "vtkDataArray.h"
+#include "vtkHapticSurfaces.h"
 #include "vtkMath.h"
 #include "vtkPlaneSource.h"
 #include "vtkPointData.h"
@@ -61,7 +62,7 @@ struct SafeHand
     this->Scene->Step(ticks);
   }
   double Force() { return vtkMath::Norm(this->Scene->GetForce()); }
-  /// From tick `first` on, of each tick or of every so many; its number is told where it happens.
+  /// From tick `first` on, of each tick or of every so many; its number is given where it happens.
   double LargestGrowth(vtkIdType first, vtkIdType every = 1)
   {
     vtkDataArray* forces = this->Scene->GetTrace()->GetPointData()->GetArray("Force");
@@ -191,7 +192,7 @@ TEST(SurfaceSwaps, ASurfaceThatVanishesTakesItsForceAlongAndGivesItBackSlowly)
   EXPECT_LE(hand.LargestGrowth(0), hand.SlewGrowth() * (1.0 + 1e-9));
 }
 
-// 1 mm a time step, 30 a second: 30 mm/s. Of S8 0.05 N a tick may be felt.
+// 1 mm a time step, 30 a second: 30 mm/s. S8 allows 0.05 N a tick.
 TEST(SurfaceSwaps, ATimeStepThatComesLateIsWaitedForAndMakesNoStep)
 {
   Sheet hand;
@@ -238,12 +239,12 @@ TEST(SurfaceSwaps, ATimeStepThatIsNoGoodMakesNoStepAndTheSeriesGoesOnFromTheLast
 }
 
 // A contour of a value that nothing has any more, a threshold, a time step before the first part.
-TEST(SurfaceSwaps, WhatHasVanishedIsNotFeltAndNoError)
+TEST(SurfaceSwaps, WhatHasVanishedDoesNotHoldAndIsNoError)
 {
   for (const bool inBackground : { false, true })
   {
     Sheet hand;
-    hand.Scene->SetBackgroundBuilding(inBackground);
+    hand.Scene->GetSurfaces()->SetBackgroundBuilding(inBackground);
     EventCounter errors(hand.Scene, vtkCommand::ErrorEvent);
     vtkNew<vtkPolyData> empty;
     if (inBackground)
@@ -255,15 +256,15 @@ TEST(SurfaceSwaps, WhatHasVanishedIsNotFeltAndNoError)
     hand.Scene->Step(1);
     EXPECT_EQ(hand.Force(), 0.0) << "in the tick itself";
     EXPECT_FALSE(hand.Scene->GetTouching());
-    EXPECT_FALSE(hand.Scene->IsSurfaceTouchable(0));
+    EXPECT_FALSE(hand.Scene->GetSurfaces()->IsTouchable(0));
     hand.Scene->Step(100);
     EXPECT_EQ(hand.Force(), 0.0);
     hand.Show(0.0, 100); // it is there again, above the hand, and pushes nothing
-    EXPECT_TRUE(hand.Scene->IsSurfaceTouchable(0));
+    EXPECT_TRUE(hand.Scene->GetSurfaces()->IsTouchable(0));
     EXPECT_EQ(hand.Force(), 0.0);
     hand.MoveTo(0.002, 100);
     EXPECT_GT(hand.Force(), 0.9) << "from below";
-    EXPECT_FALSE(hand.Scene->IsSurfaceOutdated(0));
+    EXPECT_FALSE(hand.Scene->GetSurfaces()->IsOutdated(0));
     EXPECT_EQ(errors.Count, 0) << hand.Scene->GetErrorMessage();
   }
 }
@@ -277,16 +278,16 @@ TEST(SurfaceSwaps, OnlyWhatIsBadKeepsTheLastAndSaysSoUntilItIsGood)
   hand.Producer->SetOutput(bad);
   hand.Scene->Step(10);
   EXPECT_GT(hand.Force(), 0.9);
-  EXPECT_TRUE(hand.Scene->IsSurfaceOutdated(0));
+  EXPECT_TRUE(hand.Scene->GetSurfaces()->IsOutdated(0));
   EXPECT_EQ(errors.Count, 1);
   hand.Show(0.0, 10);
   EXPECT_GT(hand.Force(), 0.9);
-  EXPECT_FALSE(hand.Scene->IsSurfaceOutdated(0));
+  EXPECT_FALSE(hand.Scene->GetSurfaces()->IsOutdated(0));
   hand.Producer->SetOutput(bad);
   hand.Scene->Step(10);
   vtkNew<vtkPolyData> empty;
   hand.Producer->SetOutput(empty);
   hand.Scene->Step(100); // what deforms arrives first
   EXPECT_EQ(hand.Force(), 0.0) << "empty is good";
-  EXPECT_FALSE(hand.Scene->IsSurfaceOutdated(0));
+  EXPECT_FALSE(hand.Scene->GetSurfaces()->IsOutdated(0));
 }

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-/// A square of two triangles in the plane z = `height`, felt from above [world unit].
+/// A square of two triangles in the plane z = `height`, touched from above [world unit].
 ///
 ///     (-s, s) o-------o (s, s)
 ///             |     / |

@@ -1,6 +1,8 @@
 // A child process presses on a plane with a real servo thread and ends in one of many ways; the
 // device is in memory that it shares with this one, which reads what the hand was left with.
+#include "DefaultSignals.h"
 #include "ServoTestTools.h"
+#include "haptics/Servo/EmergencyStop.h"
 #include "haptics/Servo/ServoLoop.h"
 
 #include <gtest/gtest.h>
@@ -355,6 +357,26 @@ TEST_F(EmergencyStop, AHandlerThatCallsTheOneItHasReplacedEnds)
     });
   EXPECT_TRUE(WIFSIGNALED(status));
   EXPECT_EQ(WTERMSIG(status), SIGINT);
+}
+
+TEST_F(EmergencyStop, AnInterruptOnTheWayIntoAnEventLoopIsItsEnd)
+{
+  const int status = EndWhilePressing(*this->Device,
+    [](SharedDevice&)
+    {
+      using Stop = haptics::EmergencyStop;
+      SetHandlerWhilePressing([](int) {});
+      Stop::CountInterrupts();
+      raise(SIGINT);
+      const bool isNew = Stop::CountInterruptsBeforeLoop() == 0 && Stop::CountInterrupts() == 1;
+      const bool isNextLoops = Stop::CountInterruptsBeforeLoop() == 0;
+      raise(SIGINT); // which the program has dealt with, and a loop begins much later
+      std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+      const bool isOld = Stop::CountInterruptsBeforeLoop() == 2;
+      _exit(isNew && !isNextLoops && isOld ? 7 : 8);
+    });
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 7);
 }
 
 TEST_F(EmergencyStop, ExitTakesTheForceAway)

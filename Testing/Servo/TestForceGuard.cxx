@@ -117,6 +117,49 @@ TEST(ForceGuard, DoesNotMakeUpForTheTimeOfALateTick)
   EXPECT_NEAR(guarded.Tick({ 0.0, 0.0, 0.005 }, {}, 0.3)[2], 2.0, 1e-12) << "as for two periods";
 }
 
+/// What falls over the soft start's time where a late tick may count for two periods: of 0.1 s.
+constexpr double LateShare = 2.0 * Period / 0.1;
+
+TEST(ForceGuard, DoesNotFadeForTheTimeOfALateTickWhileItWaitsForData)
+{
+  Guarded guarded;
+  for (int i = 0; i < 10; ++i)
+  {
+    guarded.Tick({ 0.0, 0.0, 0.005 });
+  }
+  guarded.Settings.SoftStartTime = 0.1;
+  Contact waiting = MakeContact({}, { 0.0, 0.0, 0.005 }, true);
+  waiting.AwaitsData = true;
+  const auto tick = [&](double period)
+  { return guarded.Guard.Force(waiting, period, guarded.Model, guarded.Settings)[2]; };
+  const double force = tick(0.0);
+  ASSERT_NEAR(force, 5.0, 1e-12);
+  EXPECT_NEAR(tick(0.09), force * (1.0 - LateShare), 1e-12) << "as for two periods";
+  EXPECT_NEAR(tick(Period), force * (1.0 - 1.5 * LateShare), 1e-12);
+}
+
+TEST(ForceGuard, DoesNotSoftenForTheTimeOfALateTickAfterAnExchange)
+{
+  Guarded guarded;
+  guarded.Settings.SoftStartTime = 0.1;
+  Contact contact = MakeContact({}, { 0.0, 0.0, 0.005 }, true);
+  contact.Material.IsPlain = false;
+  contact.Material.Stiffness = contact.Material.LargestStiffness = 900.0;
+  contact.Material.PlainShare = 0.0;
+  const auto tick = [&](double period)
+  { return guarded.Guard.Force(contact, period, guarded.Model, guarded.Settings)[2]; };
+  double force = 0.0;
+  for (int i = 0; i < 3000; ++i)
+  {
+    force = tick(Period);
+  }
+  ASSERT_NEAR(force, 4.5, 1e-12);
+  contact.Material.Stiffness = contact.Material.LargestStiffness = 100.0;
+  guarded.Guard.NoticeExchange();
+  ASSERT_NEAR(tick(Period), force, 1e-12) << "it begins";
+  EXPECT_NEAR(tick(0.09), force - 4.0 * LateShare, 1e-9) << "as for two periods";
+}
+
 TEST(ForceGuard, StartsSoftlyAndReachesTheLargestForceAtTheEnd)
 {
   SafetySettings settings;

@@ -55,7 +55,7 @@ public:
     const double carried = this->WasTouching
       ? height - this->Height
       : std::max(0.0, height - std::max(this->Height, this->Hand));
-    contact.Carried = { 0.0, 0.0, carried };
+    contact.SurfaceDisplacement = { 0.0, 0.0, carried };
     const double force = this->Guard.Force(contact, Period, { Stiffness, 10.0 }, this->Settings)[2];
     this->Work += 0.5 * (this->Force + force) * carried;
     this->WasTouching = touching;
@@ -169,7 +169,7 @@ public:
     const Vec3 force = this->Guard.Force(contact, Period, { Stiffness, 10.0 }, this->Settings);
     for (std::size_t i = 0; i < 3; ++i)
     {
-      this->Work += 0.5 * (this->Force[i] + force[i]) * contact.Carried[i];
+      this->Work += 0.5 * (this->Force[i] + force[i]) * contact.SurfaceDisplacement[i];
     }
     this->Force = force;
     this->Offences += (this->Guard.GetLimits() & haptics::PassivityDamped) ? 1 : 0;

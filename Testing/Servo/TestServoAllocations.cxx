@@ -88,6 +88,6 @@ TEST(ServoAllocations, DoNotHappenWhileTheHandGripsAndLetsGo)
     }
     ASSERT_EQ(Allocations, published) << i;
   }
-  EXPECT_GT(channel->LastForce[2], 0.0) << "let go at last, it is felt";
+  EXPECT_GT(channel->LastForce[2], 0.0) << "let go at last, it is touched";
 }
 }

@@ -40,13 +40,20 @@ void ExpectNear(const Vec3& a, const Vec3& b, double tolerance)
     << "(" << a[0] << ", " << a[1] << ", " << a[2] << ")";
 }
 
+/// A hand that presses 2 mm into a plane, for 100 ticks.
+std::shared_ptr<ScriptedChannel> PressPlane(ServoCycle& cycle)
+{
+  cycle.GetExchange().Publish(MakeGodObject(MakePlane()));
+  auto channel = MakePressingHand(0.002);
+  cycle.Begin(channel, ServoState::Stepping);
+  EXPECT_EQ(RunTicks(cycle, 100), 100);
+  return channel;
+}
+
 TEST(ServoCycle, PushesBackFromAPlaneWithStiffnessTimesDepth)
 {
   ServoCycle cycle(1024);
-  cycle.GetExchange().Publish(MakeGodObject(MakePlane()));
-  const auto channel = MakePressingHand(0.002);
-  cycle.Begin(channel, ServoState::Stepping);
-  ASSERT_EQ(RunTicks(cycle, 100), 100);
+  const auto channel = PressPlane(cycle);
   ExpectNear(channel->LastForce, { 0.0, 0.0, 1.0 }, ForceTolerance);
   ASSERT_TRUE(cycle.UpdateLatest());
   const TickRecord& latest = cycle.GetLatest();
@@ -74,9 +81,9 @@ TEST(ServoCycle, PushesBackWhereTooManyTrianglesMeetWithPropertiesOrWithout)
   haptics::PropertyValues rough;
   rough[haptics::Property::StaticFriction].Constant = 0.3;
   rough[haptics::Property::DynamicFriction].Constant = 0.2;
-  const auto feel = haptics::SurfaceProperties::Build(rough, *surface, error);
-  ASSERT_TRUE(feel) << error;
-  for (const auto& properties : { decltype(feel)(), feel })
+  const auto material = haptics::SurfaceProperties::Build(rough, *surface, error);
+  ASSERT_TRUE(material) << error;
+  for (const auto& properties : { decltype(material)(), material })
   {
     ServoCycle cycle(1024);
     cycle.GetExchange().Publish(std::make_unique<haptics::GodObject>(
@@ -103,7 +110,7 @@ TEST(ServoCycle, AsksForNoForceInFreeSpace)
   EXPECT_EQ(cycle.GetLatest().Generation, 0u);
 }
 
-TEST(ServoCycle, FeelsTheSameWhateverTheWorldsUnitAndAxes)
+TEST(ServoCycle, GivesTheSameForceWhateverTheWorldsUnitAndAxes)
 {
   // The device's z axis is the world's x axis, in kilometres of terrain or nanometres of tissue.
   for (const double scale : { 1e-6, 1.0, 3e4 })
@@ -152,10 +159,7 @@ TEST(ServoCycle, ShortensAForceOverTheLimit)
 TEST(ServoCycle, TakesALowerStiffnessAtTheNextTickAndAHigherOneSlowly)
 {
   ServoCycle cycle(1024);
-  cycle.GetExchange().Publish(MakeGodObject(MakePlane()));
-  const auto channel = MakePressingHand(0.002);
-  cycle.Begin(channel, ServoState::Stepping);
-  ASSERT_EQ(RunTicks(cycle, 100), 100);
+  const auto channel = PressPlane(cycle);
   ServoSettings settings;
   settings.Force.Stiffness = 250.0;
   cycle.Configure(settings);
@@ -218,10 +222,7 @@ TEST(ServoCycle, AsksForNoForceAtAPositionThatIsNotFinite)
 TEST(ServoCycle, AsksForNoForceWhereTheDisplacementIsNotFiniteInTheDeviceFrame)
 {
   ServoCycle cycle(1024);
-  cycle.GetExchange().Publish(MakeGodObject(MakePlane()));
-  auto channel = MakePressingHand(0.002);
-  cycle.Begin(channel, ServoState::Stepping);
-  ASSERT_EQ(RunTicks(cycle, 100), 100);
+  const auto channel = PressPlane(cycle);
   ServoSettings settings;
   settings.DeviceToWorld.Scale = 1e-310; // [world unit/m]: a displacement of 1 is over 1e308 m
   settings.DeviceToWorld.Translation = { 0.0, 0.0, -1.0 };
@@ -256,10 +257,7 @@ TEST(ServoCycle, AsksForNoForceAtAnAbsurdlyFarPositionButGoesOn)
 TEST(ServoCycle, AsksForNoForceAtItsEnd)
 {
   ServoCycle cycle(1024);
-  cycle.GetExchange().Publish(MakeGodObject(MakePlane()));
-  const auto channel = MakePressingHand(0.002);
-  cycle.Begin(channel, ServoState::Stepping);
-  ASSERT_EQ(RunTicks(cycle, 100), 100);
+  const auto channel = PressPlane(cycle);
   ASSERT_NE(channel->LastForce, NoForce);
   cycle.End(ServoState::Stopped);
   EXPECT_EQ(channel->LastForce, NoForce);
@@ -318,28 +316,22 @@ TEST(ServoCycle, StaysOnTheSurfaceWhenTheSurfacesArePublishedAgain)
 TEST(ServoCycle, StartsAnewAtTheHipWhenAsked)
 {
   ServoCycle cycle(1024);
-  cycle.GetExchange().Publish(MakeGodObject(MakePlane()));
-  const auto channel = MakePressingHand(0.002);
-  cycle.Begin(channel, ServoState::Stepping);
-  ASSERT_EQ(RunTicks(cycle, 100), 100);
+  const auto channel = PressPlane(cycle);
   ServoSettings settings;
   settings.Placements = 1;
   cycle.Configure(settings);
   ASSERT_EQ(RunTicks(cycle, 1, 100), 1);
-  EXPECT_EQ(channel->LastForce, NoForce) << "below a plane that is felt from above";
+  EXPECT_EQ(channel->LastForce, NoForce) << "below a plane that is touched from above";
 }
 
 TEST(ServoCycle, StartsEveryRunAtTheHip)
 {
   ServoCycle cycle(1024);
-  cycle.GetExchange().Publish(MakeGodObject(MakePlane()));
-  const auto channel = MakePressingHand(0.002);
-  cycle.Begin(channel, ServoState::Stepping);
-  ASSERT_EQ(RunTicks(cycle, 100), 100);
+  const auto channel = PressPlane(cycle);
   cycle.End(ServoState::Stopped);
   cycle.Begin(channel, ServoState::Stepping);
   ASSERT_EQ(RunTicks(cycle, 1, 100), 1);
-  EXPECT_EQ(channel->LastForce, NoForce) << "the hand went below while nothing was felt";
+  EXPECT_EQ(channel->LastForce, NoForce) << "the hand went below while nothing held";
 }
 
 TEST(ServoCycle, RecordsEveryTickOnceAndInOrder)

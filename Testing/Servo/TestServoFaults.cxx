@@ -1,4 +1,5 @@
 #include "ServoTestTools.h"
+#include "WaitFor.h"
 #include "haptics/Servo/ServoLoop.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +30,7 @@ public:
   std::atomic<bool> Halted{ false };
   std::atomic<bool> Hang{ false };
   std::atomic<int> Halts{ 0 };
-  std::atomic<double> Felt{ 0.0 }; ///< [N], what the hand feels now
+  std::atomic<double> OnHand{ 0.0 }; ///< [N], on the hand now
 
   bool Read(double time, haptics::DeviceSample& sample) noexcept override
   {
@@ -41,13 +42,13 @@ public:
   }
   void Write(const std::array<double, 3>& force) noexcept override
   {
-    this->Felt = this->Halted ? 0.0 : std::hypot(force[0], force[1], force[2]);
+    this->OnHand = this->Halted ? 0.0 : std::hypot(force[0], force[1], force[2]);
     ScriptedChannel::Write(force);
   }
   void Halt() noexcept override
   {
     this->Halted = true;
-    this->Felt = 0.0;
+    this->OnHand = 0.0;
     this->Halts.fetch_add(1);
   }
   void Resume() noexcept override { this->Halted = false; }
@@ -75,15 +76,6 @@ struct Servo
     std::string error;
     ASSERT_TRUE(this->Loop.Start(this->Timing, error)) << error;
   }
-  template <typename Condition>
-  bool WaitFor(Condition condition)
-  {
-    for (int i = 0; i < 20000 && !condition(); ++i)
-    {
-      std::this_thread::sleep_for(Milliseconds(1));
-    }
-    return condition();
-  }
 };
 
 TEST(ServoFaults, AHangingTickLeavesNoForceInTheHandAndComesBackSoftly)
@@ -91,17 +83,17 @@ TEST(ServoFaults, AHangingTickLeavesNoForceInTheHandAndComesBackSoftly)
   Servo servo;
   servo.Timing.WatchdogTime = 100000000;
   servo.Start();
-  ASSERT_TRUE(servo.WaitFor([&] { return servo.Channel->Felt > 0.9; }));
+  ASSERT_TRUE(WaitFor([&] { return servo.Channel->OnHand > 0.9; }));
   const int haltsBefore = servo.Channel->Halts; // a busy machine may have had some
   servo.Channel->Hang = true;
-  ASSERT_TRUE(servo.WaitFor([&] { return servo.Channel->Halts > haltsBefore; }));
-  EXPECT_EQ(servo.Channel->Felt, 0.0) << "while the servo still hangs";
+  ASSERT_TRUE(WaitFor([&] { return servo.Channel->Halts > haltsBefore; }));
+  EXPECT_EQ(servo.Channel->OnHand, 0.0) << "while the servo still hangs";
   std::vector<TickRecord> records;
   servo.Cycle.Drain(records);
   servo.Channel->Hang = false;
-  ASSERT_TRUE(servo.WaitFor([&] { return servo.Channel->Felt > 0.9; })) << "it goes on";
+  ASSERT_TRUE(WaitFor([&] { return servo.Channel->OnHand > 0.9; })) << "it goes on";
   servo.Loop.Stop();
-  EXPECT_EQ(servo.Channel->Felt, 0.0);
+  EXPECT_EQ(servo.Channel->OnHand, 0.0);
   EXPECT_GE(servo.Loop.GetNumberOfHalts(), 1u);
   records.clear();
   servo.Cycle.Drain(records);
@@ -126,11 +118,11 @@ TEST(ServoFaults, TooManyMissedDeadlinesEndTheRunWithoutForce)
     return press(time, sample);
   };
   servo.Start();
-  ASSERT_TRUE(servo.WaitFor([&] { return servo.Channel->Felt > 0.9; }));
+  ASSERT_TRUE(WaitFor([&] { return servo.Channel->OnHand > 0.9; }));
   slow = true;
-  ASSERT_TRUE(servo.WaitFor([&] { return servo.Cycle.GetState() != ServoState::Running; }));
+  ASSERT_TRUE(WaitFor([&] { return servo.Cycle.GetState() != ServoState::Running; }));
   EXPECT_EQ(servo.Cycle.GetState(), ServoState::Overrun);
-  EXPECT_EQ(servo.Channel->Felt, 0.0);
+  EXPECT_EQ(servo.Channel->OnHand, 0.0);
   EXPECT_EQ(servo.Channel->LastForce, NoForce);
   servo.Loop.Stop();
 }
@@ -139,22 +131,22 @@ TEST(ServoFaults, PausingTakesTheForceAwayAndTheServoGoesOn)
 {
   Servo servo;
   servo.Start();
-  ASSERT_TRUE(servo.WaitFor([&] { return servo.Channel->Felt > 0.9; }));
+  ASSERT_TRUE(WaitFor([&] { return servo.Channel->OnHand > 0.9; }));
   ServoSettings settings;
   settings.Safety.Paused = true;
   servo.Cycle.Configure(settings);
-  ASSERT_TRUE(servo.WaitFor([&] { return servo.Channel->Felt == 0.0; }));
+  ASSERT_TRUE(WaitFor([&] { return servo.Channel->OnHand == 0.0; }));
   const int writes = servo.Channel->Writes;
-  ASSERT_TRUE(servo.WaitFor([&] { return servo.Channel->Writes > writes + 20; }));
-  EXPECT_EQ(servo.Channel->Felt, 0.0);
+  ASSERT_TRUE(WaitFor([&] { return servo.Channel->Writes > writes + 20; }));
+  EXPECT_EQ(servo.Channel->OnHand, 0.0);
   settings.Safety.Paused = false;
   servo.Cycle.Configure(settings);
-  EXPECT_TRUE(servo.WaitFor([&] { return servo.Channel->Felt > 0.9; }));
+  EXPECT_TRUE(WaitFor([&] { return servo.Channel->OnHand > 0.9; }));
 }
 
-TEST(ServoFaults, ANewSurfaceUnderThePressingHandIsFeltSoftly)
+TEST(ServoFaults, ANewSurfaceUnderThePressingHandPushesSoftly)
 {
-  // The plane falls 5 mm below the hand, then another comes up 2 mm above it, felt from both
+  // The plane falls 5 mm below the hand, then another comes up 2 mm above it, touched from both
   // sides: whatever the change does to the force, it grows no faster than a soft start.
   ServoCycle cycle(1024);
   cycle.GetExchange().Publish(MakeGodObject(MakePlane()));
@@ -252,9 +244,9 @@ TEST(ServoFaults, ADeviceThatSetsThePaceIsTickedOnceASample)
   for (int i = 1; i <= 200; ++i)
   {
     device->GiveSample();
-    ASSERT_TRUE(servo.WaitFor([&] { return device->Writes == i; }));
+    ASSERT_TRUE(WaitFor([&] { return device->Writes == i; }));
   }
-  EXPECT_TRUE(servo.WaitFor([&] { return servo.Statistics.Report().Ticks >= 200u; }));
+  EXPECT_TRUE(WaitFor([&] { return servo.Statistics.Report().Ticks >= 200u; }));
   EXPECT_EQ(device->Writes, 200);
   plugged = false;
   device->GiveSample(); // the servo waits for one, and Stop() for the servo
@@ -291,7 +283,7 @@ TEST(ServoFaults, ADeviceThatWasFastDoesNotHideThatItIsSilentNow)
     }
   }
   // Asked every fourth period from here on: three deadlines pass without a tick each time.
-  ASSERT_TRUE(servo.WaitFor([&] { return silences >= 5; }));
+  ASSERT_TRUE(WaitFor([&] { return silences >= 5; }));
   servo.Loop.Stop();
   EXPECT_GE(missed[4], missed[0] + 4 * 3 - 1)
     << "the one before them may have been early by a period";
@@ -306,7 +298,7 @@ TEST(ServoFaults, ASilentDeviceThatSetsThePaceIsAskedAllTheSame)
   servo.Cycle.Begin(device, ServoState::Running);
   std::string error;
   ASSERT_TRUE(servo.Loop.Start(servo.Timing, error)) << error;
-  ASSERT_TRUE(servo.WaitFor([&] { return servo.Cycle.GetState() != ServoState::Running; }));
+  ASSERT_TRUE(WaitFor([&] { return servo.Cycle.GetState() != ServoState::Running; }));
   EXPECT_EQ(servo.Cycle.GetState(), ServoState::DeviceLost);
   EXPECT_EQ(device->LastForce, NoForce);
   servo.Loop.Stop();

@@ -71,7 +71,7 @@ void ExpectOnTheGrid(const std::vector<TickRecord>& records, const ServoTiming& 
   }
 }
 
-TEST(ServoLoop, TicksOnTheGridAndFeelsThePlane)
+TEST(ServoLoop, TicksOnTheGridAndTouchesThePlane)
 {
   Servo servo;
   const auto channel = MakePressingHand(0.002);

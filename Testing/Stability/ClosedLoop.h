@@ -13,7 +13,7 @@ namespace haptics::testing
 struct LoopTick
 {
   double Time;
-  Vec3 Hip;    ///< as the encoders tell it
+  Vec3 Hip;    ///< as the encoders report it
   Vec3 Held;   ///< to where the method pulls: the god-object, where it has one
   Vec3 Force;  ///< asked for
   double Work; ///< that the forces have done on the body since it was placed, without delay [J]

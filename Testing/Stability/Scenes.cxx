@@ -146,10 +146,11 @@ Trace IntoSheets(ContactMethod& method)
   return Along(method, path, SurfaceStiffness);
 }
 
-Trace OnRisingPlane(double duration)
+Trace OnRisingPlane(double duration, double tip)
 {
   const auto motion = std::make_shared<SurfaceMotion>(RigidPose{});
-  GodObject god({ { MakeSurface(Square(0.1, 8)), motion } });
+  GodObject god({ { MakeSurface(Square(0.1, 8)), motion } }, tip > 0.0 ? Tip::Ball : Tip::Point);
+  god.SetTipRadius(tip);
   const Vec3 hip{ 0.013, 0.007, -0.001 };
   god.Update({ hip[0], hip[1], 0.001 });
   Trace trace;
@@ -169,7 +170,7 @@ Trace OnRisingPlane(double duration)
 namespace
 {
 /// Where a hand has moved with forces of its own.
-LoopTick Felt(int tick, const Vec3& hip, const Vec3& displacement, const Vec3& force)
+LoopTick TickOf(int tick, const Vec3& hip, const Vec3& displacement, const Vec3& force)
 {
   return { TickTime * tick, hip, hip + displacement, force, 0.0, 0.0 };
 }
@@ -185,26 +186,26 @@ std::vector<Vec3> AcrossTable()
 }
 }
 
-Trace SoftToHard(bool plain)
+Trace SoftToHard(bool plain, double tip)
 {
   const auto table = MakeSurface(Square(0.05, 20));
   PropertyValues values;
   values[Property::Stiffness] = AtPoints(
     *table, [](const Vec3& p) { return 500.0 + 300.0 * std::clamp(p[0] / 0.01, -1.0, 1.0); });
   const std::vector<Vec3> path = AcrossTable();
-  FeltHand hand(Touchable(table, values), path.front());
+  MaterialHand hand(Touchable(table, values), path.front(), SurfaceStiffness, tip);
   Trace trace;
   for (std::size_t tick = 0; tick < path.size(); ++tick)
   {
     const Vec3 force = hand.Move(path[tick]);
     const Contact& contact = hand.God.Current();
-    trace.push_back(Felt(static_cast<int>(tick), path[tick], contact.Displacement,
+    trace.push_back(TickOf(static_cast<int>(tick), path[tick], contact.Displacement,
       plain ? contact.Material.Stiffness * contact.Displacement : force));
   }
   return trace;
 }
 
-Trace Rubbed(double staticFriction, double dynamicFriction)
+Trace Rubbed(double staticFriction, double dynamicFriction, double tip)
 {
   const auto table = MakeSurface(Square(0.05, 20));
   std::vector<Vec3> path{ { 0, 0.0013, 0.001 } };
@@ -213,13 +214,14 @@ Trace Rubbed(double staticFriction, double dynamicFriction)
   {
     GoTo(path, { x, 0.0013, -0.004 }, 300);
   }
-  FeltHand hand(Touchable(table, Rough(staticFriction, dynamicFriction)), path.front());
+  MaterialHand hand(
+    Touchable(table, Rough(staticFriction, dynamicFriction)), path.front(), SurfaceStiffness, tip);
   Trace trace;
   for (std::size_t tick = 0; tick < path.size(); ++tick)
   {
     const Vec3 force = hand.Move(path[tick]);
     trace.push_back(
-      Felt(static_cast<int>(tick), path[tick], hand.God.Current().Displacement, force));
+      TickOf(static_cast<int>(tick), path[tick], hand.God.Current().Displacement, force));
   }
   return trace;
 }
@@ -248,6 +250,11 @@ MethodPointer Certified(const TriangleMesh& mesh)
   return MakeCertified({ MakeSurface(mesh) });
 }
 
+MethodPointer CertifiedBall(const TriangleMesh& mesh, double radius)
+{
+  return MakeCertified({ MakeSurface(mesh) }, GodObject::LargestNumberOfPasses, radius);
+}
+
 MethodPointer Paper(const TriangleMesh& mesh, bool iterates, double grown)
 {
   PaperOptions options;
@@ -261,10 +268,11 @@ MethodPointer Nearest(const TriangleMesh& mesh)
   return std::make_unique<NearestSurface>(mesh);
 }
 
-MethodPointer CertifiedValley(double degrees)
+MethodPointer CertifiedValley(double degrees, double tip)
 {
   return MakeCertified(
-    { MakeSurface(Slab(-0.5 * degrees, 0.1)), MakeSurface(Slab(0.5 * degrees, 0.1)) });
+    { MakeSurface(Slab(-0.5 * degrees, 0.1)), MakeSurface(Slab(0.5 * degrees, 0.1)) },
+    GodObject::LargestNumberOfPasses, tip);
 }
 
 MethodPointer SummedValley(double degrees)
@@ -296,28 +304,34 @@ const std::vector<Scene>& AllScenes()
   static const std::vector<Scene> scenes = {
     { "S1", "A plane, pressed by 1 N: stiffness below and above 2b/T", "K = 0.5 (2b/T)",
       "K = 1.2 (2b/T)", With([] { return Certified(Square(0.1)); }, Pressed, 0.5 * Limit, 0.0, 400),
-      With([] { return Certified(Square(0.1)); }, Pressed, 1.2 * Limit, 0.0, 400), { 0, 0, 1 },
+      With([] { return Certified(Square(0.1)); }, Pressed, 1.2 * Limit, 0.0, 400),
+      With([] { return CertifiedBall(Square(0.1)); }, Pressed, 0.5 * Limit, 0.0, 400), { 0, 0, 1 },
       { { -0.004, 0 }, { 0.004, 0 } } },
     { "S2", "Fig. 3: a valley of normals 10 deg apart, pressed by 1 N, K = 0.6 (2b/T)", ours,
       "sum of fields", With([] { return CertifiedValley(10); }, Pressed, 0.6 * Limit, 0.0, 400),
-      With([] { return SummedValley(10); }, Pressed, 0.6 * Limit, 0.0, 400), { 0, 0, 1 },
+      With([] { return SummedValley(10); }, Pressed, 0.6 * Limit, 0.0, 400),
+      With([] { return CertifiedValley(10, TipRadius); }, Pressed, 0.6 * Limit, 0.0, 400),
+      { 0, 0, 1 },
       { { -0.004, 0.004 * std::tan(5 * Degree) }, { 0, 0 },
         { 0.004, 0.004 * std::tan(5 * Degree) } } },
     { "S3", "A ridge of 10 deg, 4 mm below its edge, to and fro, then still, K = 1500 N/m", ours,
       "nearest surface", With([] { return Certified(Ridge(10, 0.05)); }, OverRidge, 1500.0),
-      With([] { return Nearest(Ridge(10, 0.05)); }, OverRidge, 1500.0), { 1, 0, 0 },
+      With([] { return Nearest(Ridge(10, 0.05)); }, OverRidge, 1500.0),
+      With([] { return CertifiedBall(Ridge(10, 0.05)); }, OverRidge, 1500.0), { 1, 0, 0 },
       { { -0.0006, -0.00686 }, { 0, 0 }, { 0.0006, -0.00686 } } },
     { "S4", "Fig. 6: down the wall of a groove of 30 deg and across its crease", ours,
       "the paper, not iterated",
       With([] { return Certified(GroovedBlock(30, 0.03)); }, DownGroove, 30.0),
-      With([] { return Paper(GroovedBlock(30, 0.03), false); }, DownGroove, 30.0), { 0, 0, 1 },
+      With([] { return Paper(GroovedBlock(30, 0.03), false); }, DownGroove, 30.0),
+      With([] { return CertifiedBall(GroovedBlock(30, 0.03)); }, DownGroove, 30.0), { 0, 0, 1 },
       { { -0.03 * std::tan(15 * Degree), 0.03 }, { 0, 0 },
         { 0.03 * std::tan(15 * Degree), 0.03 } } },
     { "S5", "Fig. 4: a plate of 4 mm, pressed by a force that grows to 5 N", ours,
       "nearest surface",
       With([] { return Certified(Box(0.05, 0.05, 0.002, 4)); }, ThroughPlate, 0.004),
-      With([] { return Nearest(Box(0.05, 0.05, 0.002, 4)); }, ThroughPlate, 0.004), { 0, 0, 1 },
-      { { -0.01, 0.002 }, { 0.012, 0.002 }, { 0.012, -0.002 }, { -0.01, -0.002 } } },
+      With([] { return Nearest(Box(0.05, 0.05, 0.002, 4)); }, ThroughPlate, 0.004),
+      With([] { return CertifiedBall(Box(0.05, 0.05, 0.002, 4)); }, ThroughPlate, 0.004),
+      { 0, 0, 1 }, { { -0.01, 0.002 }, { 0.012, 0.002 }, { 0.012, -0.002 }, { -0.01, -0.002 } } },
     { "S6", "Along cracks of 10 um between all triangles, 2 mm deep", ours, "the paper, iterated",
       With(
         []
@@ -331,37 +345,44 @@ const std::vector<Scene>& AllScenes()
         },
         AlongCracks, 2000),
       With([] { return Paper(Cracked(Box(0.03, 0.03, 0.03, 8), 1e-5), true); }, AlongCracks, 2000),
+      With(
+        [] { return CertifiedBall(Cracked(Box(0.03, 0.03, 0.03, 8), 1e-5)); }, AlongCracks, 2000),
       { 0, 0, 1 }, { { -0.03, 0.03 }, { 0.03, 0.03 } } },
     { "S7", "An obtuse valley of 150 deg, across its crease 20 mm deep", ours,
       "the paper, iterated", With([] { return Certified(Groove(150, 0.2)); }, AcrossValley, 1600),
-      With([] { return Paper(Groove(150, 0.2), true); }, AcrossValley, 1600), { 1, 0, 0 },
+      With([] { return Paper(Groove(150, 0.2), true); }, AcrossValley, 1600),
+      With([] { return CertifiedBall(Groove(150, 0.2)); }, AcrossValley, 1600), { 1, 0, 0 },
       { { -0.05, 0.05 * std::tan(15 * Degree) }, { 0, 0 }, { 0.1, 0.1 * std::tan(15 * Degree) } } },
-    { "S8", "A plane that rises at 30 mm/s, told 30 times a second, against a still hand", ours,
+    { "S8", "A plane that rises at 30 mm/s, updated 30 times a second, against a still hand", ours,
       "the mesh stepped", [] { return OnRisingPlane(33 * TickTime); },
-      [] { return OnRisingPlane(0.0); }, { 0, 0, 1 }, { { 0.009, 0 }, { 0.017, 0 } } },
+      [] { return OnRisingPlane(0.0); }, [] { return OnRisingPlane(33 * TickTime, TipRadius); },
+      { 0, 0, 1 }, { { 0.009, 0 }, { 0.017, 0 } } },
     { "S9", "From 200 to 800 N/m 5 mm deep, then let go: 7.5 mJ from nowhere, or none", ours,
       "a plain spring", [] { return SoftToHard(false); }, [] { return SoftToHard(true); },
-      { 0, 0, 1 }, { { -0.025, 0 }, { 0.025, 0 } } },
+      [] { return SoftToHard(false, TipRadius); }, { 0, 0, 1 }, { { -0.025, 0 }, { 0.025, 0 } } },
     { "S10", "Rubbed 4 mm deep: static friction 0.6, dynamic 0.35", ours, "no friction",
-      [] { return Rubbed(0.6, 0.35); }, [] { return Rubbed(0.0, 0.0); }, { 1, 0, 0 },
-      { { -0.014, 0 }, { 0.014, 0 } } },
+      [] { return Rubbed(0.6, 0.35); }, [] { return Rubbed(0.0, 0.0); },
+      [] { return Rubbed(0.6, 0.35, TipRadius); }, { 1, 0, 0 }, { { -0.014, 0 }, { 0.014, 0 } } },
     { "S12", "A plane behind 5 ms of delay, pressed by 1 N", "K = 0.5 b/(T/2 + delay)",
       "K = 0.5 (2b/T)",
       With([] { return Certified(Square(0.1)); }, Pressed, 0.5 * LimitAt5ms, 5e-3, 900),
-      With([] { return Certified(Square(0.1)); }, Pressed, 0.5 * Limit, 5e-3, 900), { 0, 0, 1 },
-      { { -0.004, 0 }, { 0.004, 0 } } },
+      With([] { return Certified(Square(0.1)); }, Pressed, 0.5 * Limit, 5e-3, 900),
+      With([] { return CertifiedBall(Square(0.1)); }, Pressed, 0.5 * LimitAt5ms, 5e-3, 900),
+      { 0, 0, 1 }, { { -0.004, 0 }, { 0.004, 0 } } },
     { "S13", "Eight sheets 0.2 mm apart, passed within 5 ms, then along them", ours,
       "the paper, not iterated", With([] { return Certified(Sheets(8, 2e-4, 0.05)); }, IntoSheets),
-      With([] { return Paper(Sheets(8, 2e-4, 0.05), false); }, IntoSheets), { 1, 0, 0 },
+      With([] { return Paper(Sheets(8, 2e-4, 0.05), false); }, IntoSheets),
+      With([] { return CertifiedBall(Sheets(8, 2e-4, 0.05)); }, IntoSheets), { 1, 0, 0 },
       { { 0.0, 0 }, { 0.016, 0 } } },
     { "Fig. 2", "Inside a square: from its top to where its side is nearer, and back", ours,
       "nearest surface", With([] { return Certified(Box(0.02, 0.02, 0.02)); }, IntoCorner),
-      With([] { return Nearest(Box(0.02, 0.02, 0.02)); }, IntoCorner), { 1, 0, 0 },
+      With([] { return Nearest(Box(0.02, 0.02, 0.02)); }, IntoCorner),
+      With([] { return CertifiedBall(Box(0.02, 0.02, 0.02)); }, IntoCorner), { 1, 0, 0 },
       { { 0.006, 0.02 }, { 0.02, 0.02 }, { 0.02, 0.012 } } },
     { "Fig. 5", "Over a convex edge of 150 deg at 0.3 m/s, one step a tick", ours,
       "one pass a tick", With([] { return Certified(Ridge(150, 0.02)); }, AroundEdge),
       With([] { return MakeCertified({ MakeSurface(Ridge(150, 0.02)) }, 1); }, AroundEdge),
-      { 1, 0, 0 },
+      With([] { return CertifiedBall(Ridge(150, 0.02)); }, AroundEdge), { 1, 0, 0 },
       { { -0.005, -0.005 * std::tan(15 * Degree) }, { 0, 0 },
         { 0.005, -0.005 * std::tan(15 * Degree) } } },
   };

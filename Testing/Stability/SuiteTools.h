@@ -17,6 +17,20 @@ inline const Scene& SceneOf(const std::string& name)
     all.begin(), all.end(), [&name](const Scene& scene) { return scene.Name == name; });
 }
 
+/// A body that presses on a table, with a point or a ball. `damping`: b [N s/m]; `period`: T [s].
+inline PressedScene OnPlane(double damping = 0.35, double period = 1e-3, double tip = 0.0)
+{
+  PressedScene scene;
+  scene.Make = [tip]
+  { return tip > 0.0 ? CertifiedBall(Square(0.5), tip) : Certified(Square(0.5)); };
+  scene.Start = { 0, 0.001, tip + 1e-4 };
+  scene.Direction = { 0, 0, -1 };
+  scene.Nudge = { 0, 0, -1 };
+  scene.Damping = damping;
+  scene.Periods = { period };
+  return scene;
+}
+
 /// The largest change of the force from one tick to the next [N].
 inline double LargestStep(const Trace& trace)
 {

@@ -5,21 +5,6 @@
 
 using namespace haptics::testing;
 
-namespace
-{
-PressedScene OnPlane(double damping, double period)
-{
-  PressedScene scene;
-  scene.Make = [] { return Certified(Square(0.5)); };
-  scene.Start = { 0, 0.001, 1e-4 };
-  scene.Direction = { 0, 0, -1 };
-  scene.Nudge = { 0, 0, -1 };
-  scene.Damping = damping;
-  scene.Periods = { period };
-  return scene;
-}
-}
-
 TEST(S01Plane, ShakesFromTwiceTheDampingOverThePeriodOn)
 {
   for (const double damping : { 0.05, 0.1, 0.35, 1.0 })

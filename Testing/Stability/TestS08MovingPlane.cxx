@@ -1,4 +1,4 @@
-// S8: a surface that moves is felt to move, though it is told so 30 times a second only.
+// S8: a surface that moves pushes steadily, though it is updated 30 times a second only.
 // More: Testing/Core/TestMovingSurfaces.cxx and TestDeformingSurfaces.cxx.
 #include "SuiteTools.h"
 

@@ -5,25 +5,12 @@
 
 using namespace haptics::testing;
 
-namespace
-{
-PressedScene OnPlane()
-{
-  PressedScene scene;
-  scene.Make = [] { return Certified(Square(0.5)); };
-  scene.Start = { 0, 0.001, 1e-4 };
-  scene.Direction = { 0, 0, -1 };
-  scene.Nudge = { 0, 0, -1 };
-  scene.Share = 0.1;
-  return scene;
-}
-}
-
 TEST(S12Delay, LowersTheBoundaryByTheFormula)
 {
   for (const double delay : { 0.0, 1e-3, 2e-3, 5e-3, 1e-2 })
   {
     PressedScene scene = OnPlane();
+    scene.Share = 0.1;
     scene.Delay = delay;
     EXPECT_NEAR(MeasuredBoundary(scene), 1.0, 0.10) << delay << " s";
   }
@@ -36,6 +23,7 @@ TEST(S12Delay, AStallCountsByTheMeanOfTheSquares)
   for (const auto& [every, period] : stalls)
   {
     PressedScene scene = OnPlane();
+    scene.Share = 0.1;
     scene.Periods.assign(every, 1e-3);
     scene.Periods.back() = period;
     EXPECT_NEAR(MeasuredBoundary(scene), 1.0, 0.10) << period << " s in " << every << " ticks";

@@ -94,6 +94,7 @@ int main(int argc, char* argv[])
     }
     WriteRun(traces.get(), scene, "ours", scene.Ours());
     WriteRun(traces.get(), scene, "other", scene.Other());
+    WriteRun(traces.get(), scene, "ball", scene.Ball());
   }
   const Table ratios(folder + "ratios.csv");
   std::fputs("degrees,ours,sum\n", ratios.get());

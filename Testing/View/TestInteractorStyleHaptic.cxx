@@ -5,8 +5,10 @@
 #include "vtkCamera.h"
 #include "vtkHapticLandmarks.h"
 #include "vtkHapticOverlay.h"
+#include "vtkHapticSurfaces.h"
 #include "vtkMatrix4x4.h"
 #include "vtkPolyDataMapper.h"
+#include "vtkUnsignedCharArray.h"
 
 #include <gtest/gtest.h>
 
@@ -204,7 +206,7 @@ TEST(HapticOverlay, ReadsOutHowFarTheLastTwoLandmarksAreApart)
   hand.Device->SetPosition(0.01, -0.02, -0.001);
   hand.Scene->Step(1);
   hand.Scene->DropLandmark();
-  hand.Scene->SetUnitLength(1.0);
+  hand.Scene->GetWorkspace()->SetUnitLength(1.0);
   hand.Scene->Step(1);
   EXPECT_EQ(lastLine(), "landmark 2: 0.04 m from 1");
   hand.MoveTo(0.01);
@@ -231,10 +233,70 @@ TEST(HapticOverlay, ReadsOutWhichSurfaceIsTouchedAndWhyThereIsNoForce)
   EXPECT_EQ(overlay->GetReadout(), "");
   hand.MoveTo(-0.001);
   EXPECT_EQ(overlay->GetReadout().rfind("surface 0   cell 0", 0), 0U) << overlay->GetReadout();
-  hand.Scene->SetSurfaceName(table, "table");
+  hand.Scene->GetSurfaces()->SetName(table, "table");
   hand.MoveTo(-0.0011);
   EXPECT_EQ(overlay->GetReadout().rfind("table   cell 0", 0), 0U) << overlay->GetReadout();
   lid->SetPosition(0.0, 0.0, -0.003); // through the table
   hand.Scene->Step(100);
   EXPECT_EQ(overlay->GetReadout(), "surfaces leave no room here: no force");
+}
+
+namespace
+{
+/// Whether the rightmost columns of a window's picture are as empty as its upper right corner.
+bool IsRightEdgeEmpty(vtkRenderWindow* window)
+{
+  const int* size = window->GetSize();
+  vtkNew<vtkUnsignedCharArray> pixels;
+  window->GetPixelData(size[0] - 4, 0, size[0] - 1, size[1] - 1, 0, pixels);
+  const vtkIdType last = pixels->GetNumberOfTuples() - 1;
+  for (vtkIdType pixel = 0; pixel < last; ++pixel)
+  {
+    for (int color = 0; color < 3; ++color)
+    {
+      if (pixels->GetComponent(pixel, color) != pixels->GetComponent(last, color))
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+}
+
+TEST(HapticOverlay, NoTextIsCutOffInANarrowView)
+{
+  // A line of keys as in the help, a long message, and the data of an array.
+  const std::string line = "space held   press; move to stroke (or Shift + left button)";
+  using Show = void (*)(vtkHapticOverlay*, const std::string&);
+  const Show shows[] = { [](vtkHapticOverlay* overlay, const std::string& text)
+    { overlay->SetHint(text); },
+    [](vtkHapticOverlay* overlay, const std::string& text) { overlay->SetStatus(text); },
+    [](vtkHapticOverlay* overlay, const std::string& text) { overlay->SetReadout(text); } };
+  for (const Show show : shows)
+  {
+    vtkNew<vtkRenderer> renderer;
+    vtkNew<vtkRenderWindow> window;
+    vtkNew<vtkHapticOverlay> overlay;
+    renderer->AddViewProp(overlay);
+    window->SetOffScreenRendering(1);
+    window->SetMultiSamples(0);
+    window->SetSize(270, 400);
+    window->AddRenderer(renderer);
+    window->Render();
+    ASSERT_TRUE(IsRightEdgeEmpty(window)) << "the bar";
+    show(overlay, line);
+    window->Render();
+    EXPECT_TRUE(IsRightEdgeEmpty(window)) << "in a font that is small enough";
+    for (int width = 280; width < 600; width += 20)
+    {
+      window->SetSize(width, 400);
+      window->Render();
+      EXPECT_TRUE(IsRightEdgeEmpty(window)) << width << " pixels";
+    }
+    show(overlay, line + "\n" + line);
+    window->SetSize(900, 400);
+    window->Render();
+    EXPECT_TRUE(IsRightEdgeEmpty(window)) << "with room";
+  }
 }

@@ -1,5 +1,5 @@
 // A bright and a dark ball; a landmark on each, and one between them on the bright ball's back,
-// with numbers and distances beside them: readable over both, seen whole though their balls lie on
+// with numbers and distances next to them: readable over both, seen whole though their balls lie on
 // slopes, and hidden with their ball by what is in front. The dark ball moves away and takes its
 // landmark with it, whose distance grows. The hand is out of the picture, and they are not.
 // It failed, with no landmark drawn, while they did not count for the picture's bounds.
@@ -24,7 +24,7 @@ int TestLandmarkTexts(int argc, char* argv[])
   hand.Scene->AddSurface(bright.Actor);
   hand.Scene->AddSurface(dark.Actor);
   hand.Scene->SetWorkspaceTransform(vtkNew<vtkMatrix4x4>());
-  hand.Scene->SetUnitLength(0.001);
+  hand.Scene->GetWorkspace()->SetUnitLength(0.001);
   const double places[][3] = { { -0.05, 1.0, 0.0 }, { -0.05, -0.8, 0.6 }, { 0.03, -0.8, -0.6 } };
   for (const auto& [center, y, z] : places)
   {

@@ -102,6 +102,26 @@ TEST(MouseHapticDevice, HoversOnTheSurfaceUnderTheCursorWithoutTouching)
   }
 }
 
+TEST(MouseHapticDevice, AHeldPressEndsWhereTheMouseLeavesTheWindowAndAChosenOneStays)
+{
+  MouseWindow window;
+  window.Send(vtkCommand::MouseMoveEvent, 40, 45);
+  window.Send(vtkCommand::KeyPressEvent, 40, 45, "space");
+  window.Tick();
+  EXPECT_TRUE(window.Mouse->GetPressed());
+  window.Send(vtkCommand::LeaveEvent, 99, 45);
+  window.Tick();
+  EXPECT_FALSE(window.Mouse->GetPressed()) << "the key's release would go unheard";
+
+  window.Send(vtkCommand::MouseMoveEvent, 40, 45);
+  window.Mouse->SetPressed(true); // as a button next to the view does
+  window.Tick();
+  window.Send(vtkCommand::LeaveEvent, 99, 45);
+  window.Tick();
+  EXPECT_TRUE(window.Mouse->GetPressed());
+  EXPECT_TRUE(window.Hand.Scene->GetTouching());
+}
+
 // The cursor goes over a step, from the lower table to one above it, and over its edge into the
 // emptiness: the hand is put down on the other side, and never between.
 TEST(MouseHapticDevice, IsPutDownBehindAnEdgeAndWaitsOverNothing)
@@ -155,7 +175,7 @@ TEST(MouseHapticDevice, IsPutDownBehindAnEdgeAndWaitsOverNothing)
 //                  ||
 //                  ||
 //                 o  god-object, kept from following
-TEST(MouseHapticDevice, AHandIsNoDeeperThanItWasToldWhereAFoldHoldsTheGodObject)
+TEST(MouseHapticDevice, AHandIsNoDeeperThanAskedForWhereAFoldHoldsTheGodObject)
 {
   MouseWindow window;
   window.Mouse->Close();

@@ -31,7 +31,7 @@ struct ActivePlane
   bool IsFlipped = false; ///< the god-object is on the facet's back
   /// Met from so far away that its clearance is more than it has to be: to be met anew.
   bool IsFar = false;
-  /// Not the facet's own, which is a line but for rounding, with nothing beside it on a side:
+  /// Not the facet's own, which is a line but for rounding, with no neighbour on one side:
   /// across the way that met it.
   bool IsOfWire = false;
 
@@ -89,6 +89,15 @@ public:
     this->Clear();
     this->Count = count;
     this->IsOverAll = areOver;
+  }
+  /// Gives facets their new names; each is handed to `rename` to be changed.
+  template <class Renaming>
+  void Rename(const Renaming& rename)
+  {
+    for (int i = 0; i < this->Count; ++i)
+    {
+      rename(this->Planes[i].Facet);
+    }
   }
   /// Puts the planes where their facets are now; each is handed to `renew` to be changed.
   template <class Renewal>

@@ -12,6 +12,8 @@
 
 namespace haptics
 {
+class SceneGodObject;
+
 /// One plane that held the god-object back at the end of an update.
 struct Constraint
 {
@@ -42,8 +44,14 @@ struct Contact
   double Penetration = 0.0; ///< |Displacement|
   /// How far surfaces that moved, or changed all at once, have taken the god-object along, pushed
   /// it or let it go since the update before. With the force, the work that they did.
-  Vec3 Carried{};
+  Vec3 SurfaceDisplacement{};
   int NumberOfConstraints = 0; ///< 0 to 3
+  /// The HIP has gone beyond what is known of a surface that is a patch (SurfaceOptions::Whole):
+  /// the contact, but for Hip, is that of the last place on its way up to which all is known.
+  bool AwaitsData = false;
+  /// And the patch shows no place on the side of the surface where the god-object was before that
+  /// changed: it stays where it is until one does that reaches to the surface.
+  bool IsAstray = false;
   /// The first NumberOfConstraints are valid; the one that pushes most against the HIP comes first.
   std::array<Constraint, 3> Constraints;
   haptics::Material
@@ -55,6 +63,13 @@ struct Contact
   {
     return this->Status == UpdateStatus::Touching || this->Status == UpdateStatus::Overloaded;
   }
+};
+
+/// What a god-object is: a point, or a ball about its position.
+enum class Tip
+{
+  Point,
+  Ball ///< may be one; a point as long as its radius is 0
 };
 
 /// @brief The constraint-based god-object of Zilles and Salisbury (1995), certified against leaks.
@@ -80,7 +95,7 @@ struct Contact
 /// touched, meets the straight way from the god-object to the HIP, nor a cone of a thousandth
 /// around it, the god-object comes to within 8 clearances of the HIP (of the facets that hold it; a
 /// clearance is TriangleSurface::Clearance(), or up to a millionth of the longest edge of a
-/// triangle that even twice the digits of a double do not tell from a line), and where it is
+/// triangle that even twice the digits of a double cannot distinguish from a line), and where it is
 /// farther from it, exactly there: in that update, or, of a triangle thinner than its clearance
 /// that the update has just met, in the next. It holds because
 /// - an update ends with a look along that way: what exact predicates find it free of facets is
@@ -89,7 +104,7 @@ struct Contact
 ///   of it for certain, and the way to the HIP, behind it, goes through it at a distance from its
 ///   edges that is more than rounding.
 /// Conditions: the way does not squeeze through a gap that is to be closed (class NarrowGap: an
-/// edge that no other facet shares runs beside a facet within 6 clearances, so slits are open from
+/// edge that no other facet shares runs along a facet within 6 clearances, so slits are open from
 /// 10 on); the god-object is not Overloaded or Squeezed, not farther from a surface than eight
 /// times its radius, and the HIP is not that of a surface that is just being swept by a
 /// deformation. The cone is more than the proof needs: it leaves room for the frame's rounding.
@@ -105,7 +120,7 @@ struct Contact
 /// **Surfaces that move** see the god-object move, and its way in their own frame is certified like
 /// any other: from the point where they last had it, bit for bit, to the next. So nothing passes
 /// through at any speed. Triangles of a surface that deforms (SurfaceDeformer) go straight from
-/// tick to tick, and what is not certain to pass beside the god-object counts as passing over it. A
+/// tick to tick, and what is not certain to miss the god-object counts as passing over it. A
 /// god-object that touches is taken along by the first surface that holds
 /// it, then pushed out of what has come into its place. Where surfaces close in and leave no place,
 /// each keeps a god-object of its own that nothing passes, there is no force
@@ -113,7 +128,7 @@ struct Contact
 ///
 /// **Monotone**: an update never takes the god-object farther from the HIP it is given, beyond
 /// rounding: the premise of the stability bound K <= 2b/T on any static surface. Advance() may, by
-/// Contact::Carried: that is the surfaces' own work.
+/// Contact::SurfaceDisplacement: that is the surfaces' own work.
 ///
 /// **Friction**: where the surfaces in contact have some, the god-object stays, bit for bit, while
 /// the HIP pulls within the static friction's cone, and else moves to the side of the dynamic
@@ -125,15 +140,40 @@ struct Contact
 /// list. Constraints name the one plane that holds; of planes that coincide, that of the first
 /// surface.
 ///
-/// **Bounded**: in each piece (one, but for SetPieceLimit()) at most 16 passes of 12 casts, and
+/// **A ball** (SetTipRadius()) touches up to three places, rounds edges and corners, and comes into
+/// no hole narrower than itself. Its centre, which is the position here, stays a radius off every
+/// facet from a side that can be touched; each straight piece of the centre's way has been
+/// certified for that, to within a millionth of the radius (class BallSet). So the centre crosses
+/// nothing, and there are no gaps to close and no clearances of thin triangles to keep: what holds
+/// it is there, as each plane that does is that between the ball and the place that it touches.
+/// Between two ticks of a surface that deforms, a ball of 0.49 of the radius is clear for certain.
+/// Where it overlaps, because it was put there, has grown, or came through the back of a surface
+/// that has only a front, the largest ball about its centre that does not counts in its stead
+/// (BallRadius()): it is free to leave and comes no deeper. That grows by a 128th of the radius in
+/// an update, and is pushed out the nearest way meanwhile: Contact::SurfaceDisplacement, no work of
+/// the hand. What leaves it no room to grow leaves it as small. A centre exactly on a triangle has
+/// no side. Passes converge over what is round; they go on in the next update where one has not
+/// enough. An update follows the way within a tick in one piece.
+///
+/// **A patch** of a surface (SurfaceOptions::Whole) gives what the whole does, to the last bit,
+/// where all triangles that matter are in it. A god-object never comes farther from its HIP, so
+/// what it can meet lies in the ball about the HIP that it is on the rim of: an update follows the
+/// HIP as far as that ball stays in the patch, and no farther (Contact::AwaitsData); no motion ends
+/// beyond it. The next patch of the same surface goes on in Continue() with what was gathered and
+/// held, as if there had been no exchange, as long as the god-object is in it. Where the surface is
+/// another one then and has gone over the god-object, that is placed as on a whole one, if the
+/// patch shows where that is, and else rests without a force until one does (Contact::IsAstray).
+/// Jump() goes the straight way, as a hand would.
+///
+/// **Bounded**: in each substep (SetSubstepLimit()) at most 16 passes of 12 casts, and
 /// 131,072 triangles looked up in all; where one place needs more, the god-object is held there
 /// (UpdateStatus::Overloaded). As much again for surfaces that move, which are taken on in up to 32
 /// parts of a tick.
 class VTKHAPTICSCORE_EXPORT GodObject
 {
 public:
-  /// Allocates everything that an update needs. An empty list is free space.
-  explicit GodObject(std::vector<TouchedSurface> surfaces);
+  /// Allocates everything that an update needs; for a ball, some more. An empty list is free space.
+  explicit GodObject(std::vector<TouchedSurface> surfaces, Tip tip = Tip::Point);
   ~GodObject();
   GodObject(const GodObject&) = delete;
   GodObject& operator=(const GodObject&) = delete;
@@ -147,16 +187,27 @@ public:
   void SetPassLimit(int passes);
   static constexpr int LargestNumberOfPasses = 16;
 
-  /// In how many pieces an update may follow the HIP's straight way since the update before: 1, the
-  /// default, to 16; clamped. On rough ground where a god-object comes to rest depends on the
-  /// way, not only on its end: with 1 that hangs on how often the HIP is sampled, with n as little
-  /// as if it were sampled up to n times as often. One piece is made in free space, at rest, while
-  /// the same facets hold, and on smooth ground, where facets turn so little that the god-object
-  /// goes no farther by it than the HIP does. All guarantees hold, the premise of K <= 2b/T
-  /// included: an update whose pieces would end farther from the HIP than it began is made in one.
-  /// GUI thread, before the servo has this object. Measured by HapticsWayBenchmark.
-  void SetPieceLimit(int pieces);
-  static constexpr int LargestNumberOfPieces = 16;
+  /// In how many substeps an update may follow the HIP's straight way since the update before: 1 to
+  /// 16, clamped; 1, the default, is off, and 4 are enough nearly everywhere. On rough ground where
+  /// a god-object comes to rest depends on the way, not only on its end: with 1 that hangs on how
+  /// often the HIP is sampled. A substep ends where what holds the god-object changes and leads it
+  /// on by more than a quarter of the HIP's way. So there is one in free space, at rest, while the
+  /// same facets hold, and on smooth ground; and one over an edge beyond which nothing holds: a
+  /// slot that is crossed within a tick is not fallen into. All guarantees hold, the premise of K
+  /// <= 2b/T included: an update whose substeps would end farther from the HIP than it began is
+  /// made in one. It takes up to n times as long where all are needed. A ball goes in one. Acts
+  /// from the next update on; the thread that updates. Measured by HapticsWayBenchmark.
+  void SetSubstepLimit(int limit) noexcept;
+  static constexpr int LargestNumberOfSubsteps = 16;
+  static constexpr int DefaultSubstepLimit = 1;
+
+  /// The radius of a Tip::Ball [world unit]; 0, the default: a point. So is one smaller than 16 of
+  /// the largest clearance of the surfaces, or not finite. 2^20 radii of the largest surface count
+  /// at the most. Servo thread; any time between two updates: what is in contact stays so.
+  void SetTipRadius(double radius) noexcept;
+  double TipRadius() const noexcept;
+  /// The radius in effect: less than TipRadius() while that overlaps. [world unit] Servo thread.
+  double BallRadius() const noexcept;
 
   /// Puts the god-object at `hip` as in free space. Servo thread. [world]
   void Place(const Vec3& hip) noexcept;
@@ -171,7 +222,8 @@ public:
   /// (TouchedSurface::Identity) and has gone over it has it on the nearest place of the side that
   /// it was on: outside a solid that it now is in, or, of an open surface, where it was held, in
   /// front of what held it; and then where a hand that rests has it. True where nothing has changed
-  /// at once. Servo thread; as much work as an Update().
+  /// at once, or only patches of one surface have followed each other. Servo thread; as much work
+  /// as an Update().
   bool Continue(const GodObject& previous) noexcept;
   /// Takes all motions on by `dt` [s], and the god-object with them. `isAwaited`: the next one
   /// waits for HasArrived(), so what deforms goes faster by Haste, and a source that is not quite
@@ -197,6 +249,9 @@ public:
   /// certified: what such a surface sees is this point move on straight lines from call to call.
   /// Servo thread. `surface`: index in Surfaces().
   Vec3 LocalPosition(int surface) const noexcept;
+  /// Where a constraint of the last update is touched, in the local frame of its surface: under the
+  /// god-object, by the ball's radius. Servo thread.
+  Vec3 LocalTouch(const Constraint& constraint) const noexcept;
   /// What of a surface's deformation is over, 0 to 1; 1 where none deforms: its points are where
   /// TriangleSurface::PointAt() says. Servo thread.
   double DeformFraction(int surface) const noexcept;
@@ -204,8 +259,7 @@ public:
   const std::vector<TouchedSurface>& Surfaces() const noexcept;
 
 private:
-  class Implementation;
-  std::unique_ptr<Implementation> Internal;
+  std::unique_ptr<SceneGodObject> Internal;
 };
 }
 

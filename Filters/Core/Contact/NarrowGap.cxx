@@ -12,10 +12,10 @@ namespace
 {
 /// Two lips are seen in directions more apart than this.
 constexpr double LargestCosine = 0.5;
-/// Lips go on beside each other for so many times the gap's width, or they are none.
+/// Lips go on along each other for so many times the gap's width, or they are none.
 constexpr double LengthOfGap = 16.0;
 /// So many widths from an edge is on it.
-constexpr double Beside = 1.0 / 16.0;
+constexpr double Aside = 1.0 / 16.0;
 
 double SquaredDistanceToSegment(const Vector& x, const Vector& from, const Vector& to)
 {
@@ -84,12 +84,12 @@ void NarrowGap::Add(const Vector& a, const Vector& b, const Vector& c,
   {
     return;
   }
-  const double beside = Beside * width;
+  const double aside = Aside * width;
   for (int k = 0; k < 3; ++k)
   {
     lip.AreOpen[k] = areOpen[k] &&
       SquaredDistanceToSegment(lip.Nearest, lip.Corners[k], lip.Corners[(k + 1) % 3]) <=
-        beside * beside;
+        aside * aside;
   }
   this->HasOpen = this->HasOpen || lip.IsOpen();
   if (this->Count == Capacity)

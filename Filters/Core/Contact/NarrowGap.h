@@ -22,21 +22,22 @@ public:
   {
   }
 
-  /// A facet that may be near the way; a gap beside it is not wider than `width`. `areOpen`: its
+  /// A facet that may be near the way; a gap along it is not wider than `width`. `areOpen`: its
   /// edges ab, bc and ca, whether no other facet shares them.
   void Add(const Vector& a, const Vector& b, const Vector& c, const std::array<bool, 3>& areOpen,
     double width);
-  /// Whether there is a gap; also where there are open edges among too many facets to tell.
+  /// Whether there is a gap; also where there are open edges among too many facets to compare.
   bool IsFound() const;
 
 private:
   struct Lip
   {
+    // Not initialized: a gap's room for them would cost more than most gaps.
     std::array<Vector, 3> Corners;
-    Vector Nearest{ 0 }; ///< of its points to the way
-    Vector Offset{ 0 };  ///< to there from the way
-    double Width = 0.0;
-    std::array<bool, 3> AreOpen{}; ///< edges that the nearest point is on, and that are open
+    Vector Nearest; ///< of its points to the way
+    Vector Offset;  ///< to there from the way
+    double Width;
+    std::array<bool, 3> AreOpen; ///< edges that the nearest point is on, and that are open
 
     bool IsOpen() const { return this->AreOpen[0] || this->AreOpen[1] || this->AreOpen[2]; }
   };

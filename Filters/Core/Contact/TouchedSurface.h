@@ -28,16 +28,16 @@ struct TouchedSurface
   /// How it moves as a rigid body; what the snapshot calls the world is then the surface's own
   /// frame. Null, the default: it stands still, and costs nothing.
   std::shared_ptr<SurfaceMotion> Motion;
-  /// How it feels; built for Surface. Null, the default: plain, and costs nothing.
+  /// Its material; built for Surface. Null, the default: plain, and costs nothing.
   std::shared_ptr<const SurfaceProperties> Properties;
   /// The same number for all snapshots of what its user takes for one surface. Where its geometry
   /// changes all at once, contact goes on from it to the next (GodObject::Continue()); 0, the
   /// default: a surface of its own that comes and goes.
   std::uint64_t Identity = 0;
-  /// The hand carries it: it is not felt, its motion is not followed, and the god-object keeps the
-  /// local point that it had when it was gripped. Let go of, contact goes on from that point, so
-  /// that the hand is on the side where it was. Default off. Surfaces that are gripped come last in
-  /// a god-object's list.
+  /// The hand carries it: it is not touched, its motion is not followed, and the god-object keeps
+  /// the local point that it had when it was gripped. Let go of, contact goes on from that point,
+  /// so that the hand is on the side where it was. Default off. Surfaces that are gripped come last
+  /// in a god-object's list.
   bool IsGripped = false;
 };
 }

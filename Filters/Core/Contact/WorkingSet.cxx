@@ -2,10 +2,11 @@
 
 #include "haptics/Math/NearestOnTriangle.h"
 #include "haptics/Math/Predicates.h"
+#include "haptics/Math/SweptTriangle.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 namespace haptics
 {
@@ -28,184 +29,184 @@ double Fall(double x, double from, double to)
 }
 }
 
-WorkingSet::WorkingSet(
-  std::shared_ptr<const TriangleSurface> surface, std::int32_t index, const SurfaceFrame& frame)
-  : Touched(std::move(surface))
-  , Index(index)
+WorkingSet::WorkingSet(const std::shared_ptr<const TriangleSurface>& surface, std::int32_t index,
+  const SurfaceFrame& frame)
+  : Index(index)
   , ToSurface(frame)
-  , Now(this->Touched->Deforms() ? 0.0 : 1.0)
-  , Next(this->Now)
-  , RadiusToTry(this->Touched->Radius())
+  , Near(surface)
 {
-  this->KeepClearOfRounding();
-  const std::size_t capacity =
-    std::min<std::size_t>(LargestNumberOfTriangles, this->Touched->Triangles().size());
-  this->Found.resize(capacity);
-  this->Triangles.resize(capacity);
-  this->Flipped.resize(capacity);
-  this->Widths.resize(capacity);
-  for (auto* values :
-    { &this->NormalX, &this->NormalY, &this->NormalZ, &this->PlaneOffset, &this->Error,
-      &this->Clearance, &this->Distance, &this->TargetDistance, &this->Limit, &this->Low[0],
-      &this->Low[1], &this->Low[2], &this->High[0], &this->High[1], &this->High[2] })
-  {
-    values->resize(capacity);
-  }
-}
-
-/// Positions are rounded in the scene frame, which may be far from this surface.
-void WorkingSet::KeepClearOfRounding()
-{
-  this->MinimumClearance = std::max(this->Touched->Clearance(),
-    1024.0 * UnitRoundoff * (glm::length(this->ToSurface.Origin()) + this->Touched->Radius()));
-  this->Reach = LargestGrowth(this->MinimumClearance, this->Touched->Radius());
+  this->Near.KeepClearOfRounding(glm::length(frame.Origin()));
 }
 
 void WorkingSet::SetFrame(const SurfaceFrame& frame)
 {
   this->ToSurface = frame;
-  this->IsTargetMeasured = false;
-  const double farthest = this->MinimumClearance / (1024.0 * UnitRoundoff);
-  if (glm::length(frame.Origin()) + this->Touched->Radius() > farthest)
-  {
-    this->KeepClearOfRounding();
-    // Twice as far, so that one that goes on does not come here in every tick.
-    this->MinimumClearance *= 2.0;
-    this->Reach *= 2.0;
-    this->Covered = Region::Nothing;
-    this->EmptyRadius = 0.0;
-  }
+  this->Near.Facets().ForgetTarget();
+  this->Near.KeepClearAfterMove(glm::length(frame.Origin()));
 }
 
 void WorkingSet::Place(const Vector& position)
 {
-  this->Position = this->ToSurface.PointToLocal(position);
-  this->Covered = Region::Nothing;
+  this->Near.Place(this->ToSurface.PointToLocal(position));
 }
 
 void WorkingSet::Return(const Vector& local)
 {
-  this->Position = local;
-  this->Covered = Region::Nothing;
+  this->Near.Place(local);
 }
 
 void WorkingSet::Restart(const Vector& position)
 {
-  this->EmptyRadius = 0.0;
-  this->RadiusToTry = this->Touched->Radius();
-  this->LargestToTry = HUGE_VAL;
-  this->MostInBall = FewInBall;
   this->Place(position);
-  this->GatheredAt = this->Position;
+  this->Owed.reset();
+  this->Near.ForgetLearned();
 }
 
 void WorkingSet::Continue(const WorkingSet& previous)
 {
-  this->MinimumClearance = std::max(this->MinimumClearance, previous.MinimumClearance);
-  this->Reach = std::max(this->Reach, previous.Reach);
-  this->Position = previous.Position;
-  this->Covered = Region::Nothing;
-  if (this->Touched == previous.Touched)
+  this->Near.Place(previous.LocalPosition());
+  this->Near.Continue(previous.Near);
+  this->Geometry().Continue(previous.Geometry());
+}
+
+void WorkingSet::TakeOver(const WorkingSet& previous)
+{
+  this->ToSurface = previous.ToSurface;
+  this->Near.TakeOver(previous.Near);
+  this->Geometry().Continue(previous.Geometry());
+}
+
+double WorkingSet::KnownPart(const Vector& hip, double radius) const
+{
+  if (this->IsAstray())
   {
-    this->Now = previous.Now;
-    this->Next = this->Now;
-    this->Elapsed = previous.Elapsed;
+    return 0.0;
   }
-  // What it has learned of the surface.
-  this->RadiusToTry = previous.RadiusToTry;
-  this->LargestToTry = previous.LargestToTry;
-  this->MostInBall = previous.MostInBall;
+  const SurfacePatch* const patch = this->Surface().Patch();
+  return patch ? patch->Region().KnownPart(
+                   ToVec3(this->LocalPosition()), ToVec3(this->ToSurface.PointToLocal(hip)), radius)
+               : 1.0;
 }
 
-bool WorkingSet::IsEmptyAround(const Vector& x) const
+bool WorkingSet::IsKnown(const Vector& place, double radius) const
 {
-  return this->EmptyRadius > 0.0 &&
-    SquaredLength(x - this->EmptyCentre) < this->EmptyRadius * this->EmptyRadius;
+  const SurfacePatch* const patch = this->Surface().Patch();
+  return !patch ||
+    patch->Region().DistanceTo(ToVec3(this->ToSurface.PointToLocal(place))) + radius <=
+    patch->Region().Radius;
 }
 
-bool WorkingSet::PassesThroughNothing(const Vector& to)
+SideKeeper WorkingSet::Sides(WorkBudget& budget)
 {
-  const bool isEmpty =
-    this->Covered == Region::Ball && this->IsEmptyAround(this->Position) && this->IsEmptyAround(to);
-  if (isEmpty)
+  return SideKeeper(this->Geometry(), this->Near.Scratch(), this->Near.MinimumClearance(), budget);
+}
+
+SideKeeper::Past WorkingSet::PastOf(
+  const WorkingSet& previous, const ActivePlane* held, TriangleList scratch) const
+{
+  return { previous.Geometry(), scratch, previous.LocalPosition(), held ? held->Facet.Triangle : -1,
+    held ? this->ToSurface.VectorToLocal(held->Normal) : Vector(0.0), previous.Owed };
+}
+
+bool WorkingSet::ContinueAfterChange(
+  const WorkingSet& previous, const ActivePlane* held, TriangleList scratch, WorkBudget& budget)
+{
+  const SideKeeper::Past past = this->PastOf(previous, held, scratch);
+  const SideKeeper sides = this->Sides(budget);
+  Vector position = this->LocalPosition();
+  const std::optional<Enclosed> before = sides.Before(past);
+  const bool isMoved = sides.PlaceAfter(past, before, position);
+  if (this->Surface().Patch())
   {
-    this->Target = to;
-    this->IsTargetMeasured = false;
+    this->Owed = before && !sides.IsOnSideOf(*before, position) ? before : std::nullopt;
   }
-  return isEmpty;
+  this->Near.Place(position);
+  return !isMoved;
 }
 
-bool WorkingSet::IsInBall(const Vector& x) const
+void WorkingSet::StandBeyond(const WorkingSet& previous, TriangleList scratch, WorkBudget& budget)
 {
-  return SquaredLength(x - this->Centre) <= this->Radius * this->Radius;
+  if (this->Surface().Patch())
+  {
+    this->Owed = this->Sides(budget).Before(this->PastOf(previous, nullptr, scratch));
+  }
 }
 
-bool WorkingSet::IsFarOut() const
+bool WorkingSet::IsOnSameSide(const Vector& place, WorkBudget& budget)
 {
-  const double far = 8.0 * this->Touched->Radius();
-  return SquaredLength(this->Position) > far * far;
+  return this->Sides(budget).AreOnSameSide(
+    this->LocalPosition(), this->ToSurface.PointToLocal(place));
+}
+
+void WorkingSet::SkipTick(WorkBudget& budget)
+{
+  const SideKeeper sides = this->Sides(budget);
+  Vector position = this->LocalPosition();
+  Enclosed before;
+  const bool isCounted = sides.CountEnclosing(position, before);
+  this->Geometry().SkipTick();
+  if (isCounted)
+  {
+    sides.PlaceWhereEnclosed(before, position);
+  }
+  this->Near.Place(position);
+  this->Near.ForgetEmptyBall();
+}
+
+void WorkingSet::SweepTo(double part)
+{
+  this->Geometry().SweepTo(part);
+  this->IsSweepClear = false;
 }
 
 bool WorkingSet::FindFirstHit(
   const Vector& goal, const ActivePlanes& active, WorkBudget& budget, FacetHit& hit)
 {
   const Vector to = this->ToSurface.PointToLocal(goal);
-  if (this->IsSweeping())
+  if (this->Geometry().IsSweeping())
   {
     return this->FindSwept(to, budget, hit);
   }
-  if (this->PassesThroughNothing(to))
+  if (this->Near.PassesThroughNothing(to))
   {
     return true;
   }
   const auto isAnswered = [&]
   {
     // All triangles in the ball are known: a hit inside it is the first of the whole way.
-    return this->IsInBall(to) ||
-      (hit && this->IsInBall(this->Position + hit.Fraction * (to - this->Position)));
+    return this->Near.IsInBall(to) ||
+      (hit &&
+        this->Near.IsInBall(this->LocalPosition() + hit.Fraction * (to - this->LocalPosition())));
   };
-  if (this->Covered == Region::Ball)
+  if (this->Near.HasBall())
   {
-    hit = this->Scan(to, active);
+    this->Scan(to, active, hit);
     if (isAnswered())
     {
       return true;
     }
   }
   // Another ball is worth while where the god-object has neared the rim of the old one.
-  const bool isGatheredHere = this->Covered == Region::Ball && this->GatheredAt == this->Position;
-  if (!isGatheredHere && this->GatherBall(budget))
+  if (!this->Near.IsBallGatheredHere() && this->Near.GatherBall(budget))
   {
-    hit = this->Scan(to, active);
+    this->Scan(to, active, hit);
     if (isAnswered())
     {
       return true;
     }
   }
-  if (this->Covered == Region::Ball && this->IsFarOut())
+  if (this->Near.HasBall() && this->Near.IsFarOut())
   {
-    const double fraction = this->Radius / glm::length(to - this->Position);
-    hit.Fraction = fraction * (1.0 - 0x1p-40);
+    hit.Fraction = this->Near.FractionInBall(to);
     hit.IsWaypoint = true;
     return true;
   }
-  if (!this->GatherSegment(to, budget))
+  if (!this->Near.GatherSegment(to, budget))
   {
     return false;
   }
-  hit = this->Scan(to, active);
+  this->Scan(to, active, hit);
   return true;
-}
-
-/// `normal` is the facet's, by the order of its corners; `nearest`: see CoverageOf().
-Coverage WorkingSet::CoverageAt(std::int32_t triangle, const Vector& normal, double clearance,
-  double wayError, const Vector& x, Vector& nearest) const
-{
-  const auto [a, b, c] = this->CornersOf(triangle);
-  return CoverageOf(
-    normal, a, b, c, x, GrowthOverSharedEdges * clearance + wayError,
-    GrowthOverGaps * clearance + wayError,
-    [&](int edge) { return this->IsOpenEdge(triangle, edge); }, nearest);
 }
 
 /// Whether the facet is under x. Where it only reaches over a gap, what stands on the other lip of
@@ -217,157 +218,10 @@ bool WorkingSet::Covers(const FacetId& facet, const Vector& normal, double clear
 {
   Vector nearest;
   const Coverage coverage =
-    this->CoverageAt(facet.Triangle, normal, clearance, wayError, x, nearest);
+    this->Geometry().CoverageAt(facet.Triangle, normal, clearance, wayError, x, nearest);
   return coverage >= Coverage::Own ||
     (coverage == Coverage::Reach &&
       !planes.PassesOver(this->ToSurface.PointToScene(nearest), facet));
-}
-
-void WorkingSet::Measure(const Vector& x, std::vector<double>& distances) const
-{
-  const Vector d = x - this->Centre;
-  const double* const nx = this->NormalX.data();
-  const double* const ny = this->NormalY.data();
-  const double* const nz = this->NormalZ.data();
-  const double* const offset = this->PlaneOffset.data();
-  double* const out = distances.data();
-  for (std::int32_t i = 0; i < this->Count; ++i)
-  {
-    out[i] = nx[i] * d.x + ny[i] * d.y + nz[i] * d.z - offset[i];
-  }
-}
-
-void WorkingSet::MeasurePosition()
-{
-  this->Measure(this->Position, this->Distance);
-  this->IsPositionMeasured = true;
-  this->TurnToPosition();
-  this->SetLimits();
-}
-
-void WorkingSet::MeasureTarget(const Vector& to)
-{
-  this->Target = to;
-  this->Measure(to, this->TargetDistance);
-  this->IsTargetMeasured = true;
-  this->IsTargetClear = false;
-}
-
-void WorkingSet::TurnToPosition()
-{
-  if (this->HasThin)
-  {
-    this->TurnThin();
-  }
-  if (this->Touched->TouchedSide() == Side::Front)
-  {
-    return;
-  }
-  for (std::int32_t i = 0; i < this->Count; ++i)
-  {
-    if (this->Distance[i] > this->Error[i] || this->Widths[i] != Width::Broad ||
-      !this->Touched->TouchesBack(this->Triangles[i]))
-    {
-      continue;
-    }
-    bool isBehind = this->Distance[i] < 0.0;
-    if (std::abs(this->Distance[i]) <= this->Error[i])
-    {
-      const auto [a, b, c] = this->CornersOf(this->Triangles[i]);
-      const int side = Orientation(a, b, c, this->Position);
-      isBehind = (this->Flipped[i] ? -side : side) < 0;
-    }
-    if (isBehind)
-    {
-      this->Flipped[i] ^= 1;
-      for (auto* values :
-        { &this->NormalX, &this->NormalY, &this->NormalZ, &this->PlaneOffset, &this->Distance })
-      {
-        (*values)[i] = -(*values)[i];
-      }
-    }
-  }
-}
-
-void WorkingSet::TurnThin()
-{
-  for (std::int32_t i = 0; i < this->Count; ++i)
-  {
-    if (this->Widths[i] == Width::Broad)
-    {
-      continue;
-    }
-    const auto [a, b, c] = this->CornersOf(this->Triangles[i]);
-    const bool isBehind = Orientation(a, b, c, this->Position) < 0;
-    this->Flipped[i] = isBehind && this->Touched->TouchesBack(this->Triangles[i]) ? 1 : 0;
-    if (this->Widths[i] == Width::Seam)
-    {
-      this->Distance[i] = -std::numeric_limits<double>::max(); // nothing meets it
-      continue;
-    }
-    const Facet facet(a, b, c);
-    const Vector& anchor = facet.Corner[facet.Anchor];
-    const Vector along =
-      glm::normalize(facet.Corner[(facet.Anchor + 2) % 3] - facet.Corner[(facet.Anchor + 1) % 3]);
-    const Vector from = this->Position - anchor;
-    const Vector across = from - glm::dot(from, along) * along;
-    const double distance = glm::length(across);
-    // Nearer than rounding the direction is not known. Else what rounding of a longer way along the
-    // line has left of that is taken out.
-    const bool isKnown = distance > 0.125 * this->Clearance[i];
-    const Vector normal = isKnown
-      ? glm::normalize(across / distance - glm::dot(across / distance, along) * along)
-      : (isBehind ? -facet.Normal : facet.Normal);
-    this->NormalX[i] = normal.x;
-    this->NormalY[i] = normal.y;
-    this->NormalZ[i] = normal.z;
-    this->PlaneOffset[i] = glm::dot(normal, anchor - this->Centre);
-    // What is behind one that has only a front may go where it wants.
-    this->Distance[i] = isBehind && !this->Touched->TouchesBack(this->Triangles[i])
-      ? -std::numeric_limits<double>::max()
-      : glm::dot(normal, from);
-  }
-}
-
-/// `nearest`: no gathered triangle is nearer to the god-object.
-void WorkingSet::GrowEmptyBall(double nearest)
-{
-  const double rim = this->Radius - glm::length(this->Position - this->Centre);
-  const double radius = std::min(nearest - this->Reach, rim);
-  if (radius > this->EmptyRadius - glm::length(this->Position - this->EmptyCentre))
-  {
-    this->EmptyCentre = this->Position;
-    this->EmptyRadius = radius;
-  }
-}
-
-void WorkingSet::SetLimits()
-{
-  const double* const distance = this->Distance.data();
-  const double* const error = this->Error.data();
-  const double* const clearance = this->Clearance.data();
-  double* const limit = this->Limit.data();
-  for (std::int32_t i = 0; i < this->Count; ++i)
-  {
-    const double half = 0.5 * clearance[i];
-    const double least = half < distance[i] ? half : distance[i];
-    const double value = least > error[i] ? least : error[i];
-    limit[i] = distance[i] < -error[i] ? -HUGE_VAL : value;
-  }
-  if (this->Covered != Region::Ball)
-  {
-    return;
-  }
-  double nearest = HUGE_VAL;
-  for (std::int32_t i = 0; i < this->Count && nearest > this->Reach; ++i)
-  {
-    nearest = std::min(nearest, std::abs(distance[i]) - error[i]);
-  }
-  // No triangle is nearer than its plane.
-  if (nearest > this->Reach)
-  {
-    this->GrowEmptyBall(nearest);
-  }
 }
 
 void FacetHit::Take(const FacetHit& other)
@@ -388,14 +242,77 @@ void FacetHit::Take(const FacetHit& other)
   this->Fraction = first;
 }
 
-FacetHit WorkingSet::Scan(const Vector& to, const ActivePlanes& active)
+bool WorkingSet::FindSwept(const Vector& to, WorkBudget& budget, FacetHit& hit)
 {
-  if (!this->IsPositionMeasured)
+  this->IsSweepClear = false;
+  if (!this->Near.GatherSwept(to, budget))
   {
-    this->MeasurePosition();
+    return false;
   }
-  this->MeasureTarget(to);
-  const Vector way = to - this->Position;
+  const TriangleList found = this->Near.Found();
+  for (std::int32_t k = 0; k < found.Count; ++k)
+  {
+    this->Sweeps(found.Indices[k], to, hit);
+  }
+  this->Near.Facets().SetTarget(to);
+  this->IsSweepClear = !hit;
+  return true;
+}
+
+/// Whether a triangle may pass over the god-object, and does so before the hit, which it then is.
+bool WorkingSet::Sweeps(std::int32_t triangle, const Vector& to, FacetHit& hit) const
+{
+  const auto [a0, b0, c0] = this->Geometry().CornersOf(triangle);
+  const auto [a1, b1, c1] = this->Geometry().NextCornersOf(triangle);
+  SweptTriangle swept;
+  swept.From = { a0 - this->LocalPosition(), b0 - this->LocalPosition(),
+    c0 - this->LocalPosition() };
+  swept.To = { a1 - to, b1 - to, c1 - to };
+  // 16 roundings of a coordinate: of the differences above, and of times that are halved.
+  swept.Slack = this->Near.MinimumClearance() / 64.0;
+  swept.IsOneSided = !this->Surface().TouchesBack(triangle);
+  const double time = swept.TimeOfContact();
+  if (time >= 1.0 || time > hit.Fraction)
+  {
+    return false;
+  }
+  Facet facet(swept.To[0], swept.To[1], swept.To[2]);
+  if (!facet.HasArea())
+  {
+    facet = Facet(swept.From[0], swept.From[1], swept.From[2]);
+    if (!facet.HasArea())
+    {
+      return false; // one without area is never touched
+    }
+  }
+  const bool isFlipped = !swept.IsOneSided && Orientation(a0, b0, c0, this->LocalPosition()) < 0;
+  const Vector normal = isFlipped ? -facet.Normal : facet.Normal;
+  const double depth = glm::dot(normal, swept.To[0]);
+  if (hit && time == hit.Fraction &&
+    depth <= glm::dot(this->ToSurface.VectorToLocal(hit.Plane.Normal),
+               this->ToSurface.PointToLocal(hit.Plane.Anchor) - to))
+  {
+    return false; // of those met at once the one most pressed against
+  }
+  hit.Fraction = time;
+  hit.IsWaypoint = false;
+  hit.Plane.Facet = { this->Index, triangle };
+  hit.Plane.IsFlipped = isFlipped;
+  hit.Plane.Normal = this->ToSurface.VectorToScene(normal);
+  hit.Plane.Anchor = this->ToSurface.PointToScene(a1);
+  hit.Plane.Clearance =
+    facet.Clearance(this->Near.MinimumClearance(), glm::length(facet.Corner[facet.Anchor]));
+  hit.Plane.IsFar = false;
+  hit.Plane.IsOfWire = false;
+  return true;
+}
+
+void WorkingSet::Scan(const Vector& to, const ActivePlanes& active, FacetHit& hit)
+{
+  FacetTable& facets = this->Near.Facets();
+  this->Near.RequirePosition();
+  facets.MeasureTarget(to);
+  const Vector way = to - this->LocalPosition();
   const double wayError = 16.0 * UnitRoundoff * glm::length(way);
   // The facets that are met first, all at once as far as that can be known.
   struct Meeting
@@ -407,23 +324,27 @@ FacetHit WorkingSet::Scan(const Vector& to, const ActivePlanes& active)
   int count = 0;
   double first = HUGE_VAL;
   double last = HUGE_VAL;
-  const double* const after = this->TargetDistance.data();
-  const double* const limit = this->Limit.data();
-  const std::int32_t gathered = this->Count;
+  const double* const after = facets.ColumnOfTargetDistances();
+  const double* const limit = facets.ColumnOfLimits();
+  const std::int32_t gathered = facets.Size();
   bool isClear = true;
-  for (std::int32_t i = 0; i < gathered; ++i)
+  const auto nextFrom = [&](std::int32_t i)
   {
-    if (after[i] > limit[i])
+    while (i < gathered && after[i] > limit[i])
     {
-      continue;
+      ++i;
     }
+    return i;
+  };
+  for (std::int32_t i = nextFrom(0); i < gathered; i = nextFrom(i + 1))
+  {
     isClear = false;
-    const double here = this->Distance[i];
-    const double there = this->TargetDistance[i];
-    const double clearance = this->Clearance[i];
+    const double here = facets.Distance(i);
+    const double there = after[i];
+    const double clearance = facets.Clearance(i);
     // No farther than four clearances from a facet is it met, half a one over its plane.
     if (there >= std::min(0.5 * clearance, here) ||
-      !this->MeetsBox(i, to, 16.0 * clearance + 4.0 * wayError))
+      !facets.MeetsBox(i, to, 16.0 * clearance + 4.0 * wayError))
     {
       continue;
     }
@@ -435,20 +356,20 @@ FacetHit WorkingSet::Scan(const Vector& to, const ActivePlanes& active)
     {
       continue;
     }
-    const FacetId id{ this->Index, this->Triangles[i] };
+    const FacetId id{ this->Index, facets.Triangle(i) };
     const bool isActive = active.Has(id);
     if (isActive && there > 0.0)
     {
       continue;
     }
-    const Vector normal = this->FacetNormal(i);
+    const Vector normal = facets.Normal(i);
     const double enter = std::max(0.0, (here - 0.5 * clearance) / approach);
     const double cross = std::clamp(here / approach, 0.0, 1.0);
-    const bool meets =
-      (!isActive &&
-        this->Covers(id, normal, clearance, wayError, this->Position + enter * way, active)) ||
+    const bool meets = (!isActive &&
+                         this->Covers(id, normal, clearance, wayError,
+                           this->LocalPosition() + enter * way, active)) ||
       (there <= 0.0 &&
-        this->Covers(id, normal, clearance, wayError, this->Position + cross * way, active));
+        this->Covers(id, normal, clearance, wayError, this->LocalPosition() + cross * way, active));
     if (!meets)
     {
       continue;
@@ -466,8 +387,8 @@ FacetHit WorkingSet::Scan(const Vector& to, const ActivePlanes& active)
     }
     meetings[count++] = { i, stop, slack, there };
   }
-  this->IsTargetClear = isClear;
-  FacetHit hit;
+  facets.SetTargetClear(isClear);
+  hit.Fraction = HUGE_VAL;
   const Meeting* chosen = nullptr;
   for (int k = 0; k < count; ++k)
   {
@@ -476,10 +397,10 @@ FacetHit WorkingSet::Scan(const Vector& to, const ActivePlanes& active)
     {
       continue;
     }
-    const double same = chosen ? SlackOfHeight * this->Clearance[m.Index] + wayError : 0.0;
+    const double same = chosen ? SlackOfHeight * facets.Clearance(m.Index) + wayError : 0.0;
     if (!chosen || m.There < chosen->There - same ||
       (m.There <= chosen->There + same &&
-        this->Triangles[m.Index] < this->Triangles[chosen->Index]))
+        facets.Triangle(m.Index) < facets.Triangle(chosen->Index)))
     {
       chosen = &m;
     }
@@ -487,193 +408,97 @@ FacetHit WorkingSet::Scan(const Vector& to, const ActivePlanes& active)
   if (chosen)
   {
     const std::int32_t i = chosen->Index;
-    const std::int32_t triangle = this->Triangles[i];
-    const Vector normal = this->FacetNormal(i);
+    const std::int32_t triangle = facets.Triangle(i);
     hit.Fraction = first;
+    hit.IsWaypoint = false;
     hit.Slack = chosen->Slack;
-    hit.Depth = -chosen->There - (SlackOfHeight * this->Clearance[i] + wayError);
+    hit.Depth = -chosen->There - (SlackOfHeight * facets.Clearance(i) + wayError);
     hit.Plane.Facet = { this->Index, triangle };
-    hit.Plane.IsFlipped = this->Flipped[i];
-    hit.Plane.Normal = this->ToSurface.VectorToScene(this->Flipped[i] ? -normal : normal);
-    hit.Plane.Anchor = this->ToSurface.PointToScene(this->CornersOf(triangle).A);
-    hit.Plane.Clearance = this->Clearance[i];
-    hit.Plane.IsFar = this->Covered == Region::Segment;
-    hit.Plane.IsOfWire = this->Widths[i] == Width::Wire && this->HasOpenEdge(triangle);
+    hit.Plane.IsFlipped = facets.IsFlipped(i);
+    hit.Plane.Normal = this->ToSurface.VectorToScene(facets.NormalTowards(i));
+    hit.Plane.Anchor = this->ToSurface.PointToScene(this->Geometry().CornersOf(triangle).A);
+    hit.Plane.Clearance = facets.Clearance(i);
+    hit.Plane.IsFar = this->Near.HasSegment();
+    hit.Plane.IsOfWire = facets.IsOfWire(i);
   }
-  return hit;
 }
 
 bool WorkingSet::IsClear(const Vector& target)
 {
   const Vector to = this->ToSurface.PointToLocal(target);
-  if (this->IsSweeping())
+  if (this->Geometry().IsSweeping())
   {
-    return this->IsSweepClear && to == this->Target;
+    return this->IsSweepClear && to == this->Facets().Target();
   }
-  if (this->PassesThroughNothing(to))
+  if (this->Near.PassesThroughNothing(to))
   {
     return true;
   }
-  if (this->Covered == Region::Ball && !this->IsInBall(to))
+  if (this->Near.HasBall() && !this->Near.IsInBall(to))
   {
     return false; // short of the hit, but rounded to beyond it, where other triangles are
   }
-  const bool isKnown = this->IsTargetMeasured && this->IsTargetClear && to == this->Target;
-  return isKnown || !this->MeetsAny(to);
+  return this->Facets().IsKnownClear(to) || this->FindTouched(to) < 0;
 }
 
 bool WorkingSet::IsClearNear(const Vector& target, ActivePlane& inTheWay)
 {
   const Vector to = this->ToSurface.PointToLocal(target);
-  if (this->Covered != Region::Ball || this->IsSweeping() || !this->IsInBall(to))
+  if (!this->Near.HasBall() || this->Geometry().IsSweeping() || !this->Near.IsInBall(to))
   {
     return false;
   }
-  if (this->PassesThroughNothing(to))
+  if (this->Near.PassesThroughNothing(to))
   {
     return true;
   }
-  const std::int32_t i = this->FindTouched(to);
+  this->Near.RequirePosition();
+  const std::int32_t i = this->Near.Facets().FindTouchedShort(to);
   if (i >= 0)
   {
-    const Vector normal = this->FacetNormal(i);
-    inTheWay.Facet = { this->Index, this->Triangles[i] };
-    inTheWay.Normal = this->ToSurface.VectorToScene(this->Flipped[i] ? -normal : normal);
+    inTheWay.Facet = { this->Index, this->Facets().Triangle(i) };
+    inTheWay.Normal = this->ToSurface.VectorToScene(this->Facets().NormalTowards(i));
   }
   return i < 0;
 }
 
-WorkingSet::Rims WorkingSet::FindRimsNear(double clearances)
-{
-  std::array<std::int32_t, 8> found;
-  std::size_t count = 0;
-  for (std::int32_t i = 0; i < this->Count; ++i)
-  {
-    const std::int32_t triangle = this->Triangles[i];
-    const double reach = clearances * this->Clearance[i];
-    if (!this->HasOpenEdge(triangle) || !this->MeetsBox(i, this->Position, reach))
-    {
-      continue;
-    }
-    const auto [a, b, c] = this->CornersOf(triangle);
-    const Vector* const corners[4] = { &a, &b, &c, &a };
-    bool isNear = false;
-    for (int k = 0; k < 3; ++k)
-    {
-      const Vector nearest = NearestOnSegment(*corners[k], *corners[k + 1], this->Position);
-      isNear = isNear ||
-        (this->IsOpenEdge(triangle, k) && SquaredLength(nearest - this->Position) <= reach * reach);
-    }
-    if (!isNear)
-    {
-      continue;
-    }
-    const auto& ends = this->Touched->Triangles()[triangle];
-    const bool isJoined = std::all_of(found.begin(), found.begin() + count,
-      [&](std::int32_t other)
-      {
-        const auto& others = this->Touched->Triangles()[other];
-        return std::find_first_of(ends.begin(), ends.end(), others.begin(), others.end()) !=
-          ends.end();
-      });
-    if (!isJoined || count == found.size())
-    {
-      return Rims::Apart;
-    }
-    found[count++] = triangle;
-  }
-  return count > 0 ? Rims::Joined : Rims::None;
-}
-
-/// Whether the way to `to` meets a gathered triangle.
-bool WorkingSet::MeetsAny(const Vector& to)
-{
-  return this->FindTouched(to) >= 0;
-}
-
 std::int32_t WorkingSet::FindTouched(const Vector& to)
 {
-  if (!this->IsPositionMeasured)
-  {
-    this->MeasurePosition();
-  }
-  if (!this->IsTargetMeasured || to != this->Target)
-  {
-    this->MeasureTarget(to);
-  }
-  const double* const before = this->Distance.data();
-  const double* const after = this->TargetDistance.data();
-  const double* const error = this->Error.data();
-  const std::int32_t count = this->Count;
-  for (std::int32_t i = 0; i < count; ++i)
-  {
-    // Asked first whether it may end behind: few motions do.
-    if (after[i] <= error[i] && before[i] >= -error[i] && this->MeetsBox(i, to, 0.0) &&
-      this->Touches(i, after[i], to))
-    {
-      this->LastTouched = i;
-      return i;
-    }
-  }
-  return -1;
-}
-
-bool WorkingSet::StillTouches(const Vector& to) const
-{
-  const std::int32_t i = this->LastTouched;
-  if (i < 0 || !this->IsPositionMeasured || !(this->Distance[i] >= -this->Error[i]))
-  {
-    return false;
-  }
-  const Vector d = to - this->Centre;
-  const double after =
-    this->NormalX[i] * d.x + this->NormalY[i] * d.y + this->NormalZ[i] * d.z - this->PlaneOffset[i];
-  return after <= this->Error[i] && this->MeetsBox(i, to, 0.0) && this->Touches(i, after, to);
-}
-
-/// `distance`: of `to` from the triangle's plane, as measured.
-bool WorkingSet::Touches(std::int32_t i, double distance, const Vector& to) const
-{
-  const Vector& from = this->Position;
-  auto [a, b, c] = this->CornersOf(this->Triangles[i]);
-  if (this->Flipped[i])
-  {
-    std::swap(b, c);
-  }
-  const int before = this->Distance[i] > this->Error[i] ? 1 : Orientation(a, b, c, from);
-  if (before < 0)
-  {
-    return false;
-  }
-  const int after = distance < -this->Error[i] ? -1 : Orientation(a, b, c, to);
-  if (after > 0 || (before == 0 && after == 0))
-  {
-    return false;
-  }
-  return LineMeetsTriangle(from, to, a, b, c);
+  this->Near.RequirePosition();
+  return this->Near.Facets().FindTouched(to);
 }
 
 void WorkingSet::Move()
 {
-  if (this->IsSweeping())
+  if (this->Geometry().IsSweeping())
   {
-    this->MoveSwept();
+    this->Geometry().FinishSweep();
+    this->Near.MoveSwept();
     return;
   }
-  this->Position = this->Target;
-  if (this->Covered == Region::Segment)
+  this->Near.Move();
+}
+
+void WorkingSet::Renew(ActivePlane& plane) const
+{
+  const auto [a, b, c] = this->Geometry().NextCornersOf(plane.Facet.Triangle);
+  const Facet facet(a, b, c);
+  if (facet.HasArea())
   {
-    this->Covered = Region::Nothing;
-    return;
+    plane.Normal = this->ToSurface.VectorToScene(plane.IsFlipped ? -facet.Normal : facet.Normal);
   }
-  this->IsPositionMeasured = this->IsTargetMeasured;
-  if (this->IsTargetMeasured)
-  {
-    std::swap(this->Distance, this->TargetDistance);
-    this->IsTargetMeasured = false;
-    this->TurnToPosition();
-    this->SetLimits();
-  }
+  plane.Anchor = this->ToSurface.PointToScene(a);
+}
+
+Vector WorkingSet::PointAfterSweep(const ActivePlane& plane) const
+{
+  return this->Geometry().PointAfterSweep(plane.Facet.Triangle, this->LocalPosition());
+}
+
+void WorkingSet::MoveTo(const Vector& place)
+{
+  this->Place(place);
+  this->Geometry().FinishSweep();
 }
 
 /// `nearest` is in the local frame.
@@ -682,7 +507,7 @@ Coverage WorkingSet::CoverageAt(
 {
   const Vector normal =
     this->ToSurface.VectorToLocal(plane.IsFlipped ? -plane.Normal : plane.Normal);
-  return this->CoverageAt(plane.Facet.Triangle, normal, plane.Clearance, 0.0,
+  return this->Geometry().CoverageAt(plane.Facet.Triangle, normal, plane.Clearance, 0.0,
     this->ToSurface.PointToLocal(position), nearest);
 }
 
@@ -697,34 +522,18 @@ bool WorkingSet::Covers(const ActivePlane& plane, const Vector& position,
       !planes.PassesOver(this->ToSurface.PointToScene(nearest), plane.Facet));
 }
 
-bool WorkingSet::FindNextNormal(
-  const ActivePlane& plane, const Vector& from, const Vector& to, Vector& normal) const
+bool WorkingSet::FindNextNormal(const ActivePlane& plane, const Vector& from, const Vector& to,
+  Vector& normal, double& fraction) const
 {
-  const std::int32_t triangle = plane.Facet.Triangle;
-  const auto [a, b, c] = this->CornersOf(triangle);
-  const Vector* const corners[4] = { &a, &b, &c, &a };
-  const Vector up = glm::cross(b - a, c - a);
   const Vector x = this->ToSurface.PointToLocal(from);
-  const Vector way = this->ToSurface.PointToLocal(to) - x;
-  double first = HUGE_VAL;
-  std::int32_t next = BoundaryEdge;
-  for (int k = 0; k < 3; ++k)
-  {
-    const Vector outwards = glm::cross(*corners[k + 1] - *corners[k], up);
-    const double speed = glm::dot(outwards, way);
-    const double left = -glm::dot(outwards, x - *corners[k]);
-    if (speed > 0.0 && left < first * speed)
-    {
-      first = left / speed;
-      next = this->Touched->AdjacentTriangles()[triangle][k];
-    }
-  }
+  const std::int32_t next = this->Geometry().NextTriangle(
+    plane.Facet.Triangle, x, this->ToSurface.PointToLocal(to) - x, fraction);
   if (next < 0)
   {
     return false;
   }
-  const auto [d, e, f] = this->CornersOf(next);
-  const Vector n = glm::cross(e - d, f - d);
+  const auto [a, b, c] = this->Geometry().CornersOf(next);
+  const Vector n = glm::cross(b - a, c - a);
   const double length = glm::length(n);
   if (!(length > 0.0))
   {
@@ -737,54 +546,62 @@ bool WorkingSet::FindNextNormal(
 bool WorkingSet::StandsInWay(const ActivePlane& plane, const Vector& goal, bool isNew) const
 {
   const Vector normal = this->ToSurface.VectorToLocal(plane.Normal);
-  const auto [a, b, c] = this->CornersOf(plane.Facet.Triangle);
+  const auto [a, b, c] = this->Geometry().CornersOf(plane.Facet.Triangle);
   const Vector to = this->ToSurface.PointToLocal(goal);
-  const double here = glm::dot(normal, this->Position - a);
+  const double here = glm::dot(normal, this->LocalPosition() - a);
   const double there = glm::dot(normal, to - a);
   if (!(here > ActivePlane::CertainHeight * plane.Clearance) || !(there < -plane.Clearance))
   {
     return false;
   }
-  const Vector x = this->Position + (here / (here - there)) * (to - this->Position);
+  const Vector way = to - this->LocalPosition();
+  const Vector onPlane = this->LocalPosition() + (here / (here - there)) * way;
+  const Vector byOrder = plane.IsFlipped ? -normal : normal;
+  const double wayError = 16.0 * UnitRoundoff * glm::length(way);
+  if (!isNew)
+  {
+    return this->Geometry().IsInside(
+      plane.Facet.Triangle, byOrder, plane.Clearance, wayError, onPlane);
+  }
   Vector nearest;
-  const Coverage coverage =
-    this->CoverageAt(plane.Facet.Triangle, plane.IsFlipped ? -normal : normal, plane.Clearance,
-      16.0 * UnitRoundoff * glm::length(to - this->Position), x, nearest);
+  const Coverage coverage = this->Geometry().CoverageAt(
+    plane.Facet.Triangle, byOrder, plane.Clearance, wayError, onPlane, nearest);
   return coverage == Coverage::Inside ||
-    (isNew && coverage == Coverage::Own && Facet(a, b, c).SmallestHeight < plane.Clearance);
+    (coverage == Coverage::Own && Facet(a, b, c).SmallestHeight < plane.Clearance);
 }
 
 bool WorkingSet::IsOpen(const Vector& goal, WorkBudget& budget, NarrowGap& gap)
 {
   const Vector to = this->ToSurface.PointToLocal(goal);
-  if (this->IsSweeping() || this->IsFarOut())
+  if (this->Geometry().IsSweeping() || this->Near.IsFarOut())
   {
     return false;
   }
-  if (this->PassesThroughNothing(to))
+  if (this->Near.PassesThroughNothing(to))
   {
     return true;
   }
-  if (this->Covered == Region::Ball && (this->StillTouches(to) || this->MeetsAny(to)))
+  if (this->Near.HasBall() && (this->Facets().StillTouches(to) || this->FindTouched(to) >= 0))
   {
     return false;
   }
-  if ((this->Covered != Region::Ball || !this->IsInBall(to)) &&
-    (!this->GatherSegment(to, budget) || this->MeetsAny(to)))
+  if ((!this->Near.HasBall() || !this->Near.IsInBall(to)) &&
+    (!this->Near.GatherSegment(to, budget) || this->FindTouched(to) >= 0))
   {
     return false;
   }
-  for (std::int32_t i = 0; i < this->Count; ++i)
+  const FacetTable& facets = this->Facets();
+  for (std::int32_t i = 0; i < facets.Size(); ++i)
   {
-    const double width = WidthOfGaps * this->Clearance[i];
-    if (this->MeetsBox(i, to, 2.0 * width))
+    const double width = WidthOfGaps * facets.Clearance(i);
+    if (facets.MeetsBox(i, to, 2.0 * width))
     {
-      const std::int32_t triangle = this->Triangles[i];
-      const auto [a, b, c] = this->CornersOf(triangle);
+      const std::int32_t triangle = facets.Triangle(i);
+      const auto [a, b, c] = this->Geometry().CornersOf(triangle);
       gap.Add(this->ToSurface.PointToScene(a), this->ToSurface.PointToScene(b),
         this->ToSurface.PointToScene(c),
-        { this->IsOpenEdge(triangle, 0), this->IsOpenEdge(triangle, 1),
-          this->IsOpenEdge(triangle, 2) },
+        { this->Geometry().IsOpenEdge(triangle, 0), this->Geometry().IsOpenEdge(triangle, 1),
+          this->Geometry().IsOpenEdge(triangle, 2) },
         width);
     }
   }
@@ -802,30 +619,30 @@ bool WorkingSet::IsPassedOver(
 FacetAlong WorkingSet::FindAlong(const Vector& normal, double near, double far, WorkBudget& budget)
 {
   FacetAlong best;
-  if (this->IsSweeping())
+  if (this->Geometry().IsSweeping())
   {
     return best;
   }
-  const bool isBall = this->Covered == Region::Ball;
-  const bool isKnown = isBall && glm::length(this->Position - this->Centre) + far <= this->Radius;
-  const bool isGatheredHere = isBall && this->GatheredAt == this->Position;
-  if (!isKnown && !isGatheredHere && !this->GatherBall(budget))
+  if (!this->Near.HoldsAllWithin(far) && !this->Near.IsBallGatheredHere() &&
+    !this->Near.GatherBall(budget))
   {
     return best;
   }
+  const FacetTable& facets = this->Facets();
+  const Vector& position = this->LocalPosition();
   const Vector up = this->ToSurface.VectorToLocal(normal);
   double nearest = HUGE_VAL;
-  for (std::int32_t i = 0; i < this->Count; ++i)
+  for (std::int32_t i = 0; i < facets.Size(); ++i)
   {
-    if (!this->MeetsBox(i, this->Position, far))
+    if (!facets.MeetsBox(i, position, far))
     {
       continue;
     }
-    const std::int32_t triangle = this->Triangles[i];
-    double cosine = glm::dot(this->FacetNormal(i), up);
-    cosine = this->Touched->TouchesBack(triangle) ? std::abs(cosine) : cosine;
-    const auto [a, b, c] = this->CornersOf(triangle);
-    const Vector way = NearestToOrigin(a - this->Position, b - this->Position, c - this->Position);
+    const std::int32_t triangle = facets.Triangle(i);
+    double cosine = glm::dot(facets.Normal(i), up);
+    cosine = this->Surface().TouchesBack(triangle) ? std::abs(cosine) : cosine;
+    const auto [a, b, c] = this->Geometry().CornersOf(triangle);
+    const Vector way = NearestToOrigin(a - position, b - position, c - position);
     if (cosine <= 0.0 || glm::dot(way, up) >= 0.0)
     {
       continue;
@@ -845,38 +662,8 @@ FacetAlong WorkingSet::FindAlong(const Vector& normal, double near, double far, 
 
 std::array<Vec3, 2> WorkingSet::WeightGradients(std::int32_t triangle) const
 {
-  const auto [a, b, c] = this->CornersOf(triangle);
-  const Vector normal = glm::cross(b - a, c - a);
-  const double squared = glm::dot(normal, normal);
-  if (!(squared > 0.0))
-  {
-    return {};
-  }
-  const auto inScene = [this, squared](const Vector& v)
-  { return ToVec3(this->Frame().VectorToScene(v / squared)); };
-  return { inScene(glm::cross(c - a, normal)), inScene(glm::cross(normal, b - a)) };
-}
-
-std::array<double, 3> WorkingSet::CornerWeights(std::int32_t triangle) const
-{
-  const auto [a, b, c] = this->CornersOf(triangle);
-  const Vector normal = glm::cross(b - a, c - a);
-  std::array<double, 3> weights = { glm::dot(normal, glm::cross(c - b, this->Position - b)),
-    glm::dot(normal, glm::cross(a - c, this->Position - c)),
-    glm::dot(normal, glm::cross(b - a, this->Position - a)) };
-  for (double& weight : weights)
-  {
-    weight = std::max(weight, 0.0); // a clearance beyond an edge
-  }
-  const double sum = weights[0] + weights[1] + weights[2];
-  if (!(sum > 0.0))
-  {
-    return { 1.0, 0.0, 0.0 };
-  }
-  for (double& weight : weights)
-  {
-    weight /= sum;
-  }
-  return weights;
+  const auto [second, third] = this->Geometry().WeightGradients(triangle);
+  return { ToVec3(this->ToSurface.VectorToScene(second)),
+    ToVec3(this->ToSurface.VectorToScene(third)) };
 }
 }

@@ -18,10 +18,10 @@ namespace haptics
 /// owner and group are those of the file that is replaced, where there is one and the system allows
 /// it, or go by the umask.
 ///
-/// What is no regular file (a folder, FIFO or device) is refused, so no call waits for another
-/// process; so is a file that another OutputFile, of any process, is still writing. A limit on the
-/// size of files is an error, not a signal. Where a call returns false, `error` names the file and
-/// says why, and what to do. One thread; not the servo's.
+/// A name of anything but a regular file (a folder, FIFO or device) is rejected, so no call waits
+/// for another process; so is a file that another OutputFile, of any process, is still writing. A
+/// limit on the size of files is an error, not a signal. Where a call returns false, `error` names
+/// the file and says why, and what to do. One thread; not the servo's.
 class VTKHAPTICSCORE_EXPORT OutputFile
 {
 public:

@@ -8,7 +8,7 @@ namespace haptics
 /// @brief The spring from the god-object to the hand, and what the device can do.
 ///
 /// Everything is in the device frame [m, N, N/m], so that a terrain of 30 km and a gear of 3 mm
-/// feel alike. Servo thread.
+/// render alike. Servo thread.
 struct ForceModel
 {
   double Stiffness = 500.0;  ///< [N/m], >= 0

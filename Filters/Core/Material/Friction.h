@@ -35,7 +35,7 @@ public:
     const double pull = glm::length(nearest - position);
     const double push = glm::length(nearest - hip);
     const double slides = dynamicFriction * push;
-    this->IsSliding = this->IsSliding && pull > Hold * slides;
+    this->IsSliding = this->IsSliding && pull > StickShare * slides;
     // What was left at the cone's side by the last slide is not beyond it.
     const double limit = this->IsSliding ? slides : staticFriction * push;
     if (pull <= limit * (1.0 + Rounding))
@@ -48,8 +48,8 @@ public:
 
 private:
   static constexpr double Rounding = 1e-9;
-  /// Depths that encoders tell tremble by a few per cent.
-  static constexpr double Hold = 0.9;
+  /// Depths as encoders report them tremble by a few per cent.
+  static constexpr double StickShare = 0.9;
 
   bool IsSliding = false;
 };

@@ -10,7 +10,7 @@ class ForceProfile;
 /// Texture changes a force by at most this share of it, either way.
 constexpr double LargestTexture = 0.5;
 
-/// @brief What a contact feels like: the properties of the surfaces that hold the god-object, where
+/// @brief The material at a contact: the properties of the surfaces that hold the god-object, where
 /// it stands, each by its share of the push. Device frame.
 struct Material
 {

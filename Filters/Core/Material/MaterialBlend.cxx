@@ -7,7 +7,7 @@
 namespace haptics
 {
 void MaterialBlend::Add(
-  const Material& feel, double push, const Vector& normal, const Vector& shaded)
+  const Material& material, double push, const Vector& normal, const Vector& shaded)
 {
   if (this->Push == 0.0)
   {
@@ -15,28 +15,28 @@ void MaterialBlend::Add(
     this->Sum.LargestPlainShare = 0.0;
   }
   this->Push += push;
-  this->Sum.Stiffness += push * feel.Stiffness;
-  this->Sum.PlainShare += push * feel.PlainShare;
-  this->Sum.Damping += push * feel.Damping;
-  this->Sum.StaticFriction += push * feel.StaticFriction;
-  this->Sum.DynamicFriction += push * feel.DynamicFriction;
-  this->Sum.Texture += push * feel.Texture;
+  this->Sum.Stiffness += push * material.Stiffness;
+  this->Sum.PlainShare += push * material.PlainShare;
+  this->Sum.Damping += push * material.Damping;
+  this->Sum.StaticFriction += push * material.StaticFriction;
+  this->Sum.DynamicFriction += push * material.DynamicFriction;
+  this->Sum.Texture += push * material.Texture;
   const auto add = [push](Vec3& sum, const Vec3& gradient)
   { sum = ToVec3(ToVector(sum) + push * ToVector(gradient)); };
-  add(this->Sum.StiffnessGradient, feel.StiffnessGradient);
-  add(this->Sum.PlainShareGradient, feel.PlainShareGradient);
-  add(this->Sum.TextureGradient, feel.TextureGradient);
-  this->Sum.LargestStiffness = std::max(this->Sum.LargestStiffness, feel.LargestStiffness);
-  this->Sum.LargestPlainShare = std::max(this->Sum.LargestPlainShare, feel.LargestPlainShare);
-  this->Sum.LargestTexture = std::max(this->Sum.LargestTexture, feel.LargestTexture);
+  add(this->Sum.StiffnessGradient, material.StiffnessGradient);
+  add(this->Sum.PlainShareGradient, material.PlainShareGradient);
+  add(this->Sum.TextureGradient, material.TextureGradient);
+  this->Sum.LargestStiffness = std::max(this->Sum.LargestStiffness, material.LargestStiffness);
+  this->Sum.LargestPlainShare = std::max(this->Sum.LargestPlainShare, material.LargestPlainShare);
+  this->Sum.LargestTexture = std::max(this->Sum.LargestTexture, material.LargestTexture);
   // Of those pushed as much the steepest profile, so that their order does not count.
   const auto slope = [](const ForceProfile* profile)
   { return profile ? profile->SteepestSlope() : -1.0; };
   if (push > this->StrongestPush ||
-    (push == this->StrongestPush && slope(feel.Profile) > slope(this->Sum.Profile)))
+    (push == this->StrongestPush && slope(material.Profile) > slope(this->Sum.Profile)))
   {
     this->StrongestPush = push;
-    this->Sum.Profile = feel.Profile;
+    this->Sum.Profile = material.Profile;
   }
   this->Normal += push * normal;
   const double length = glm::length(shaded);
@@ -49,25 +49,25 @@ void MaterialBlend::Add(
 
 Material MaterialBlend::Blended() const
 {
-  Material feel = this->Sum;
-  feel.IsPlain = false;
+  Material material = this->Sum;
+  material.IsPlain = false;
   if (this->Push > 0.0)
   {
     const double share = 1.0 / this->Push;
-    feel.Stiffness *= share;
-    feel.PlainShare *= share;
-    feel.Damping *= share;
-    feel.StaticFriction *= share;
-    feel.DynamicFriction *= share;
-    feel.Texture *= share;
+    material.Stiffness *= share;
+    material.PlainShare *= share;
+    material.Damping *= share;
+    material.StaticFriction *= share;
+    material.DynamicFriction *= share;
+    material.Texture *= share;
     for (Vec3* const gradient :
-      { &feel.StiffnessGradient, &feel.PlainShareGradient, &feel.TextureGradient })
+      { &material.StiffnessGradient, &material.PlainShareGradient, &material.TextureGradient })
     {
       *gradient = ToVec3(share * ToVector(*gradient));
     }
-    feel.IsShaded = this->IsShaded;
+    material.IsShaded = this->IsShaded;
   }
-  return feel;
+  return material;
 }
 
 Vector MaterialBlend::Shade(const Vector& displacement) const
@@ -83,7 +83,7 @@ Vector MaterialBlend::Shade(const Vector& displacement) const
   const double cosine = glm::dot(a, b);
   if (cosine <= 0.0)
   {
-    return displacement; // a normal that far off tells nothing of the surface
+    return displacement; // a normal that far off says nothing of the surface
   }
   // Rodrigues' turn that takes a to b.
   const Vector axis = glm::cross(a, b);

@@ -6,14 +6,14 @@
 
 namespace haptics
 {
-/// @brief What several facets that hold the god-object at once feel like together: each counts by
+/// @brief The common material of several facets that hold the god-object at once: each counts by
 /// its share of the push. What is added in another order is the same to within rounding.
 class MaterialBlend
 {
 public:
-  /// A facet that pushes with `push` > 0 (any unit) along `normal`, and what it feels like.
+  /// A facet that pushes with `push` > 0 (any unit) along `normal`, and its material.
   /// `shaded` is the interpolated normal there, of any length; zero where nothing is shaded.
-  void Add(const Material& feel, double push, const Vector& normal, const Vector& shaded);
+  void Add(const Material& material, double push, const Vector& normal, const Vector& shaded);
   /// What came of it; plain where nothing was added.
   Material Blended() const;
   /// The displacement turned as the normal turns by shading; of the same length.

@@ -170,11 +170,11 @@ std::shared_ptr<const SurfaceProperties> SurfaceProperties::Build(
     return nullptr;
   }
   std::shared_ptr<SurfaceProperties> properties(new SurfaceProperties);
-  properties->Given = std::move(values);
+  properties->Values = std::move(values);
   properties->FindLargest();
-  if (properties->Given.Shading)
+  if (properties->Values.Shading)
   {
-    properties->Normals = ShadingNormals(surface, properties->Given.FeatureAngle);
+    properties->Normals = ShadingNormals(surface, properties->Values.FeatureAngle);
   }
   return properties;
 }
@@ -189,26 +189,26 @@ bool SurfaceProperties::HasSameArrays(const PropertyValues& values) const
   };
   for (int i = 0; i < NumberOfProperties; ++i)
   {
-    const PropertyField& a = this->Given.Fields[i];
+    const PropertyField& a = this->Values.Fields[i];
     const PropertyField& b = values.Fields[i];
     if (a.IsPerTriangle != b.IsPerTriangle || !isSame(a.Values, b.Values))
     {
       return false;
     }
   }
-  if (!isSame(this->Given.Corners, values.Corners))
+  if (!isSame(this->Values.Corners, values.Corners))
   {
     return false;
   }
-  const bool hasImage = this->Given.Image != nullptr;
+  const bool hasImage = this->Values.Image != nullptr;
   return hasImage == (values.Image != nullptr) &&
-    (!hasImage || isSame(this->Given.Image->Coordinates, values.Image->Coordinates));
+    (!hasImage || isSame(this->Values.Image->Coordinates, values.Image->Coordinates));
 }
 
 double SurfaceProperties::Value(Property property, const Triangle& corners, std::int32_t triangle,
   const Corners& weights) const noexcept
 {
-  const PropertyField& field = this->Given.Fields[static_cast<int>(property)];
+  const PropertyField& field = this->Values.Fields[static_cast<int>(property)];
   if (field.Values.empty())
   {
     return field.Constant;
@@ -225,43 +225,43 @@ Material SurfaceProperties::At(
   const Triangle& points, std::int32_t triangle, const Corners& weights) const noexcept
 {
   const Triangle& corners = this->CornersOf(points, triangle);
-  Material feel;
-  feel.IsPlain = false;
-  const PropertyField& stiffness = this->Given.Fields[static_cast<int>(Property::Stiffness)];
+  Material material;
+  material.IsPlain = false;
+  const PropertyField& stiffness = this->Values.Fields[static_cast<int>(Property::Stiffness)];
   if (stiffness.Values.empty() || stiffness.IsPerTriangle)
   {
     const double value = stiffness.IsPerTriangle && !stiffness.Values.empty()
       ? stiffness.Values[triangle]
       : stiffness.Constant;
-    feel.PlainShare = std::isnan(value) ? 1.0 : 0.0;
-    feel.Stiffness = std::isnan(value) ? 0.0 : value;
+    material.PlainShare = std::isnan(value) ? 1.0 : 0.0;
+    material.Stiffness = std::isnan(value) ? 0.0 : value;
   }
   else
   {
     // A corner without a stiffness of its own counts with the servo's.
-    feel.PlainShare = 0.0;
+    material.PlainShare = 0.0;
     for (int k = 0; k < 3; ++k)
     {
       const float value = stiffness.Values[corners[k]];
-      (std::isnan(value) ? feel.PlainShare : feel.Stiffness) +=
+      (std::isnan(value) ? material.PlainShare : material.Stiffness) +=
         std::isnan(value) ? weights[k] : weights[k] * value;
     }
   }
-  feel.Damping = this->Value(Property::Damping, corners, triangle, weights);
-  feel.StaticFriction = this->Value(Property::StaticFriction, corners, triangle, weights);
-  feel.DynamicFriction = this->Value(Property::DynamicFriction, corners, triangle, weights);
-  feel.Texture = this->Value(Property::Texture, corners, triangle, weights);
-  if (this->Given.Image)
+  material.Damping = this->Value(Property::Damping, corners, triangle, weights);
+  material.StaticFriction = this->Value(Property::StaticFriction, corners, triangle, weights);
+  material.DynamicFriction = this->Value(Property::DynamicFriction, corners, triangle, weights);
+  material.Texture = this->Value(Property::Texture, corners, triangle, weights);
+  if (this->Values.Image)
   {
     double rises[2];
-    feel.Texture = std::clamp(feel.Texture + this->Grey(corners, weights, rises),
+    material.Texture = std::clamp(material.Texture + this->Grey(corners, weights, rises),
       -haptics::LargestTexture, haptics::LargestTexture);
   }
-  feel.LargestStiffness = this->LargestStiffness;
-  feel.LargestPlainShare = this->LargestPlainShare;
-  feel.LargestTexture = this->LargestTexture;
-  feel.Profile = this->Given.Profile.get();
-  return feel;
+  material.LargestStiffness = this->LargestStiffness;
+  material.LargestPlainShare = this->LargestPlainShare;
+  material.LargestTexture = this->LargestTexture;
+  material.Profile = this->Values.Profile.get();
+  return material;
 }
 
 void SurfaceProperties::AddGradients(const Triangle& points, std::int32_t triangle,
@@ -277,12 +277,12 @@ void SurfaceProperties::AddGradients(const Triangle& points, std::int32_t triang
   };
   const auto varies = [this](Property property)
   {
-    const PropertyField& field = this->Given.Fields[static_cast<int>(property)];
+    const PropertyField& field = this->Values.Fields[static_cast<int>(property)];
     return !field.Values.empty() && !field.IsPerTriangle;
   };
   if (varies(Property::Stiffness))
   {
-    const auto& values = this->Given.Fields[static_cast<int>(Property::Stiffness)].Values;
+    const auto& values = this->Values.Fields[static_cast<int>(Property::Stiffness)].Values;
     double own[3];
     double plain[3];
     for (int k = 0; k < 3; ++k)
@@ -298,7 +298,7 @@ void SurfaceProperties::AddGradients(const Triangle& points, std::int32_t triang
   }
   double texture = this->Value(Property::Texture, corners, triangle, weights);
   double slopes[2] = { 0.0, 0.0 };
-  if (this->Given.Image)
+  if (this->Values.Image)
   {
     texture += this->Grey(corners, weights, slopes);
   }
@@ -308,7 +308,7 @@ void SurfaceProperties::AddGradients(const Triangle& points, std::int32_t triang
   }
   if (varies(Property::Texture))
   {
-    const auto& values = this->Given.Fields[static_cast<int>(Property::Texture)].Values;
+    const auto& values = this->Values.Fields[static_cast<int>(Property::Texture)].Values;
     slopes[0] += values[corners[1]] - values[corners[0]];
     slopes[1] += values[corners[2]] - values[corners[0]];
   }
@@ -317,8 +317,8 @@ void SurfaceProperties::AddGradients(const Triangle& points, std::int32_t triang
 
 void SurfaceProperties::FindLargest()
 {
-  const PropertyField& stiffness = this->Given[Property::Stiffness];
-  const PropertyField& texture = this->Given[Property::Texture];
+  const PropertyField& stiffness = this->Values[Property::Stiffness];
+  const PropertyField& texture = this->Values[Property::Texture];
   const auto add = [this](double value)
   {
     std::isnan(value) ? this->LargestPlainShare = 1.0
@@ -332,21 +332,21 @@ void SurfaceProperties::FindLargest()
   double largest = texture.Values.empty()
     ? texture.Constant
     : *std::max_element(texture.Values.begin(), texture.Values.end());
-  if (this->Given.Image)
+  if (this->Values.Image)
   {
     largest +=
-      *std::max_element(this->Given.Image->Values.begin(), this->Given.Image->Values.end());
+      *std::max_element(this->Values.Image->Values.begin(), this->Values.Image->Values.end());
   }
   this->LargestTexture = std::clamp(largest, 0.0, haptics::LargestTexture);
   const auto varies = [](const PropertyField& field)
   { return !field.Values.empty() && !field.IsPerTriangle; };
-  this->HasSlopes = varies(stiffness) || varies(texture) || this->Given.Image;
+  this->HasSlopes = varies(stiffness) || varies(texture) || this->Values.Image;
 }
 
 double SurfaceProperties::Grey(
   const Triangle& corners, const Corners& weights, double rises[2]) const noexcept
 {
-  const TextureImage& image = *this->Given.Image;
+  const TextureImage& image = *this->Values.Image;
   double place[2];
   for (int axis = 0; axis < 2; ++axis)
   {

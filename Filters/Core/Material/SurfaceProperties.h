@@ -69,7 +69,7 @@ struct PropertyValues
   PropertyValues();
 };
 
-/// @brief How a surface feels, apart from its shape: immutable, shared, read from any thread.
+/// @brief The material of a surface: immutable, shared, read from any thread.
 ///
 /// Built once off the servo thread for one surface. A look-up takes a triangle and a place in it,
 /// allocates nothing and costs a few dozen nanoseconds.
@@ -111,11 +111,11 @@ private:
   void FindLargest();
   const Triangle& CornersOf(const Triangle& points, std::int32_t triangle) const noexcept
   {
-    return this->Given.Corners.empty() ? points
-                                       : this->Given.Corners[static_cast<std::size_t>(triangle)];
+    return this->Values.Corners.empty() ? points
+                                        : this->Values.Corners[static_cast<std::size_t>(triangle)];
   }
 
-  PropertyValues Given;
+  PropertyValues Values;
   bool HasSlopes = false;
   double LargestStiffness = 0.0;
   double LargestPlainShare = 0.0;

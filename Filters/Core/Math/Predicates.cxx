@@ -1,5 +1,7 @@
 #include "haptics/Math/Predicates.h"
 
+#include "haptics/Math/TriangleSeenFrom.h"
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 namespace haptics
@@ -22,6 +24,11 @@ int Orientation(const Vector& a, const Vector& b, const Vector& c, const Vector&
 bool LineMeetsTriangle(
   const Vector& p, const Vector& q, const Vector& a, const Vector& b, const Vector& c) noexcept
 {
+  const auto answer = TriangleSeenFrom(p, a, b, c).Ask(q - p);
+  if (answer != TriangleSeenFrom::Answer::Unknown)
+  {
+    return answer == TriangleSeenFrom::Answer::Meets;
+  }
   bool positive = false;
   bool negative = false;
   const Vector* const corners[4] = { &a, &b, &c, &a };

@@ -1,6 +1,7 @@
 #ifndef Haptics_CollisionEngine_h
 #define Haptics_CollisionEngine_h
 
+#include "haptics/Math/ProgressCall.h"
 #include "haptics/Math/Vec3.h"
 #include "vtkHapticsCoreModule.h"
 
@@ -52,6 +53,8 @@ struct EngineInput
   /// Where points come from that are on their way: a triangle is found where it passes. Null: none
   /// moves. Engines that cannot Refit() do not look at it.
   const std::vector<Vec3>* StartPoints = nullptr;
+  /// Of making the engine; engines that are quick to make do not call it.
+  ProgressCall Progress = {};
 };
 
 /// @brief Proposes the triangles that a contact update has to look at.
@@ -91,8 +94,8 @@ public:
   virtual std::size_t MemoryBytes() const noexcept = 0;
 };
 
-/// Makes an engine, or returns null when it is not there or memory ran out. Automatic picks by
-/// size.
+/// Makes an engine, or returns null when it is not there, memory ran out, or input.Progress stopped
+/// it. Automatic picks by size.
 VTKHAPTICSCORE_EXPORT std::unique_ptr<CollisionEngine> MakeEngine(
   EngineKind kind, const EngineInput& input);
 

@@ -131,6 +131,33 @@ inline Vector NearestOnEdges(const Vector& a, const Vector& b, const Vector& c, 
   return nearest;
 }
 
+/// How x, projected on a triangle's plane, lies to one of its edges.
+struct EdgeSide
+{
+  double Inward; ///< distance from the edge, times the edge's length; negative beyond it
+  double SquaredLength;
+
+  /// `normal`: the triangle's, by the order of its corners.
+  EdgeSide(const Vector& normal, const Vector& from, const Vector& to, const Vector& x)
+    : Inward(glm::dot(glm::cross(normal, to - from), x - from))
+    , SquaredLength(haptics::SquaredLength(to - from))
+  {
+  }
+  bool IsNear(double width) const
+  {
+    return this->Inward * this->Inward <= width * width * this->SquaredLength;
+  }
+  bool IsInside(double own) const { return this->Inward > 0.0 && !this->IsNear(own); }
+};
+
+/// Whether CoverageOf() is Coverage::Inside.
+inline bool IsInside(const Vector& normal, const Vector& a, const Vector& b, const Vector& c,
+  const Vector& x, double own)
+{
+  return EdgeSide(normal, a, b, x).IsInside(own) && EdgeSide(normal, b, c, x).IsInside(own) &&
+    EdgeSide(normal, c, a, x).IsInside(own);
+}
+
 /// How x, projected on the triangle's plane, lies over it. The triangle reaches by `overGaps`
 /// beyond edges that are `isOpen()` and no farther from its corners, so that a needle ends where
 /// its tip is; within `own` of it is as good as on it. `normal` is the unit normal; its sign
@@ -140,45 +167,43 @@ template <class EdgeTest>
 inline Coverage CoverageOf(const Vector& normal, const Vector& a, const Vector& b, const Vector& c,
   const Vector& x, double own, double overGaps, const EdgeTest& isOpen, Vector& nearest)
 {
-  const Vector* const corners[4] = { &a, &b, &c, &a };
-  bool isInside = true;
+  const EdgeSide sides[3] = { { normal, a, b, x }, { normal, b, c, x }, { normal, c, a, x } };
+  if (sides[0].IsInside(own) && sides[1].IsInside(own) && sides[2].IsInside(own))
+  {
+    return Coverage::Inside;
+  }
   double reach = own;
   for (int k = 0; k < 3; ++k)
   {
-    const Vector edge = *corners[k + 1] - *corners[k];
-    // Times the edge's length.
-    const double inward = glm::dot(glm::cross(normal, edge), x - *corners[k]);
-    const double squared = SquaredLength(edge);
-    const bool isNear = inward * inward <= own * own * squared;
-    if (inward > 0.0 && !isNear)
+    if (sides[k].Inward >= 0.0)
     {
       continue;
     }
-    isInside = false;
-    if (inward >= 0.0)
-    {
-      continue;
-    }
-    if (isOpen(k) && inward * inward <= overGaps * overGaps * squared)
+    if (isOpen(k) && sides[k].IsNear(overGaps))
     {
       reach = overGaps;
     }
-    else if (!isNear)
+    else if (!sides[k].IsNear(own))
     {
       return Coverage::None;
     }
   }
-  if (isInside)
-  {
-    return Coverage::Inside;
-  }
   // Near an edge: which of a thin triangle's is certain only of its distance.
   const Vector y = x - glm::dot(normal, x - a) * normal;
+  const Vector* const corners[4] = { &a, &b, &c, &a };
+  for (int k = 0; k < 3; ++k)
+  {
+    if (sides[k].IsNear(own) &&
+      SquaredLength(y - NearestOnSegment(*corners[k], *corners[k + 1], y)) <= own * own)
+    {
+      return Coverage::Own;
+    }
+  }
   nearest = NearestOnEdges(a, b, c, y);
-  const double squared = SquaredLength(nearest - y);
-  return squared <= own * own ? Coverage::Own
-    : squared > reach * reach ? Coverage::None
-                              : Coverage::Reach;
+  const double distance = SquaredLength(nearest - y);
+  return distance <= own * own ? Coverage::Own
+    : distance > reach * reach ? Coverage::None
+                               : Coverage::Reach;
 }
 
 /// The widest that any facet of a surface reaches beyond itself.

@@ -60,8 +60,9 @@ struct SurfaceDeformer::Engine
   std::vector<std::int32_t> Groups; ///< LargestGroup triangles each, -1 where fewer
   double SizeWhenBuilt = 0.0;
 
-  /// The mean size of the groups' boxes, in surface radii.
-  double Size(const EngineInput& input) const
+  /// The mean size of the groups' boxes, in radii: those of the points, as an input's may be that
+  /// of its bounds.
+  double Size(const EngineInput& input, double radius) const
   {
     double sum = 0.0;
     for (std::size_t start = 0; start < this->Groups.size(); start += LargestGroup)
@@ -81,17 +82,18 @@ struct SurfaceDeformer::Engine
     }
     return this->Groups.empty()
       ? 0.0
-      : sum * LargestGroup / static_cast<double>(this->Groups.size()) / input.Radius;
+      : sum * LargestGroup / static_cast<double>(this->Groups.size()) / radius;
   }
 
   /// Whether what was taken together is still close together.
-  bool HasOrder(const EngineInput& input) const
+  bool HasOrder(const EngineInput& input, double radius) const
   {
-    return this->Collision && this->Size(input) <= LargestGrowthOfGroups * this->SizeWhenBuilt;
+    return this->Collision &&
+      this->Size(input, radius) <= LargestGrowthOfGroups * this->SizeWhenBuilt;
   }
 
   /// Chooses groups of triangles that the new engine finds close together.
-  void Watch(const EngineInput& input)
+  void Watch(const EngineInput& input, double radius)
   {
     this->Groups.clear();
     const std::size_t count = input.Triangles.size();
@@ -112,7 +114,7 @@ struct SurfaceDeformer::Engine
       std::fill(found.begin() + list.Count, found.end(), -1);
       this->Groups.insert(this->Groups.end(), found.begin(), found.end());
     }
-    this->SizeWhenBuilt = this->Size(input);
+    this->SizeWhenBuilt = this->Size(input, radius);
   }
 };
 
@@ -153,17 +155,18 @@ void SurfaceDeformer::CopyLatest(Engine& engine) const
   }
   else
   {
-    engine.Watch(this->Current->Input());
+    engine.Watch(this->Current->Input(), this->Current->EndRadius);
   }
 }
 
-bool SurfaceDeformer::Fit(Engine& engine, const EngineInput& input)
+bool SurfaceDeformer::Fit(Engine& engine, const TriangleSurface& next)
 {
-  bool hasOrder = engine.HasOrder(input);
+  const EngineInput input = next.Input();
+  bool hasOrder = engine.HasOrder(input, next.EndRadius);
   if (!hasOrder)
   {
     this->CopyLatest(engine);
-    hasOrder = engine.HasOrder(input);
+    hasOrder = engine.HasOrder(input, next.EndRadius);
   }
   if (hasOrder)
   {
@@ -175,7 +178,7 @@ bool SurfaceDeformer::Fit(Engine& engine, const EngineInput& input)
     return false;
   }
   ++this->Builds;
-  engine.Watch(input);
+  engine.Watch(input, next.EndRadius);
   return true;
 }
 
@@ -217,7 +220,7 @@ std::shared_ptr<const TriangleSurface> SurfaceDeformer::Make(
   next->SurfaceOrigin = from.SurfaceOrigin;
   next->Shared = from.Shared;
   next->CrackWidth = from.CrackWidth;
-  next->Touched = from.Touched;
+  next->ActualSide = from.ActualSide;
   if (follows)
   {
     next->Duration = duration;
@@ -236,7 +239,7 @@ std::shared_ptr<const TriangleSurface> SurfaceDeformer::Make(
     return nullptr;
   }
   const std::shared_ptr<Engine> engine = this->Borrow();
-  if (!this->Fit(*engine, next->Input()))
+  if (!this->Fit(*engine, *next))
   {
     engine->Collision = nullptr; // made anew next time
     error = "memory ran out while the collision engine was fitted";

@@ -45,7 +45,7 @@ public:
   /// takes the place of the one before.
   std::shared_ptr<const TriangleSurface> Replace(std::vector<Vec3> points, std::string& error);
   /// The longest way of a point from what the next snapshot starts from to `points`, as in Deform()
-  /// [world unit]. Where their numbers differ, and so it cannot be told: 0.
+  /// [world unit]. 0 where their numbers differ.
   double LongestWay(const std::vector<Vec3>& points) const;
 
   /// What the next snapshot will start from.
@@ -60,7 +60,7 @@ private:
     std::vector<Vec3> points, double duration, bool follows, std::string& error);
   std::shared_ptr<Engine> Borrow();
   void CopyLatest(Engine& engine) const;
-  bool Fit(Engine& engine, const EngineInput& input);
+  bool Fit(Engine& engine, const TriangleSurface& next);
 
   std::shared_ptr<const TriangleSurface> Current;
   std::vector<std::shared_ptr<Engine>> Engines;

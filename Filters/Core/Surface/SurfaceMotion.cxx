@@ -54,7 +54,7 @@ SurfaceMotion::SurfaceMotion(const RigidPose& pose, const Vec3& pivot, double ra
   , Target(this->Now)
 {
   Pack(this->Now, this->Ordered, TargetAt);
-  this->Known.Pose = this->Now;
+  this->LastState.Pose = this->Now;
 }
 
 bool SurfaceMotion::IsValid(const RigidPose& pose) noexcept
@@ -105,11 +105,11 @@ const SurfaceMotion::State& SurfaceMotion::Read()
   Report::Numbers numbers;
   if (this->Reports.Read(this->SeenReport, numbers))
   {
-    this->Known.Pose = Unpack(numbers, 0);
-    this->Known.IsMoving = numbers[PoseSize] != 0.0;
-    this->Known.IsSlowed = numbers[PoseSize + 1] != 0.0;
+    this->LastState.Pose = Unpack(numbers, 0);
+    this->LastState.IsMoving = numbers[PoseSize] != 0.0;
+    this->LastState.IsSlowed = numbers[PoseSize + 1] != 0.0;
   }
-  return this->Known;
+  return this->LastState;
 }
 
 const RigidPose& SurfaceMotion::Advance(double dt) noexcept

@@ -10,7 +10,7 @@
 
 namespace haptics
 {
-/// @brief How a surface moves as a rigid body: told now and then, interpolated at the servo's rate.
+/// @brief How a surface moves as a rigid body: set now and then, interpolated at the servo's rate.
 ///
 ///     GUI thread   --MoveTo, JumpTo-->   [ newest ]   --Advance-->   servo thread
 ///                  <--Read-------------  [ pose   ]   <------------
@@ -88,7 +88,7 @@ private:
   Order::Numbers Ordered{};
   double LargestSpeed = HUGE_VAL;
   std::uint64_t SeenReport = 0;
-  State Known;
+  State LastState;
 
   // The servo thread's.
   std::uint64_t SeenOrder = 0;

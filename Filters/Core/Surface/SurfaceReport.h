@@ -1,6 +1,7 @@
 #ifndef Haptics_SurfaceReport_h
 #define Haptics_SurfaceReport_h
 
+#include "haptics/Math/ProgressCall.h"
 #include "haptics/Math/Vec3.h"
 #include "vtkHapticsCoreModule.h"
 
@@ -16,7 +17,7 @@ constexpr std::int32_t BoundaryEdge = -1;    ///< no triangle on the other side
 constexpr std::int32_t NonManifoldEdge = -2; ///< more than two triangles share the edge
 
 /// @brief The topology of a triangle surface: what is needed to choose the side to touch, and
-/// what a person wants to know of a mesh that feels wrong.
+/// what explains a mesh whose contact does not look right.
 struct SurfaceReport
 {
   std::int64_t BoundaryEdges = 0;    ///< edges with one triangle
@@ -29,9 +30,11 @@ struct SurfaceReport
 };
 
 /// Finds the neighbours of each triangle and reports the topology.
-/// `points` may be in any frame; O(n log n) time.
+/// `points` may be in any frame; O(n log n) time, by several threads. What it finds means nothing
+/// where `progress` has stopped it.
 VTKHAPTICSCORE_EXPORT SurfaceReport AnalyseSurface(const std::vector<Vec3>& points,
-  const std::vector<std::array<std::int32_t, 3>>& triangles, Neighbours& neighbours);
+  const std::vector<std::array<std::int32_t, 3>>& triangles, Neighbours& neighbours,
+  const ProgressCall& progress = {});
 }
 
 #endif

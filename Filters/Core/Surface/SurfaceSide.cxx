@@ -15,8 +15,8 @@ namespace
 /// Directions of rays, along no axis; the next is taken where one meets an edge or a corner.
 constexpr std::array<std::array<double, 3>, 4> Directions = { { { 0.57, 0.61, 0.55 },
   { -0.43, 0.31, 0.85 }, { 0.21, -0.93, 0.29 }, { -0.71, -0.37, -0.60 } } };
-/// Points as near as this beside the nearest one are as near.
-constexpr double Tie = 1e-9;
+/// Points within this of the nearest one's distance are as near.
+constexpr double EqualDistance = 1e-9;
 /// Balls that are looked into for the nearest place: 14 that grow to the surface's size, and some
 /// between the last two where the larger has too many triangles.
 constexpr int LargestNumberOfBalls = 32;
@@ -39,9 +39,9 @@ SurfaceSide::Corners SurfaceSide::CornersOf(std::int32_t triangle) const
     ToVector(this->Surface.PointAt(c, this->Fraction)) };
 }
 
-int SurfaceSide::Crossing(const Vector& from, const Vector& to, std::int32_t triangle) const
+int CrossingOf(
+  const Vector& from, const Vector& to, const Vector& a, const Vector& b, const Vector& c)
 {
-  const auto [a, b, c] = this->CornersOf(triangle);
   const int before = Orientation(a, b, c, from);
   const int after = Orientation(a, b, c, to);
   if (before * after > 0 || !LineMeetsTriangle(from, to, a, b, c))
@@ -53,6 +53,56 @@ int SurfaceSide::Crossing(const Vector& from, const Vector& to, std::int32_t tri
   return isClean ? after : 2;
 }
 
+bool SurfaceSide::AddCrossings(
+  const Vector& from, const Vector& to, Enclosed& crossings, bool& isKnown)
+{
+  TriangleList found = this->Scratch;
+  found.Count = 0;
+  found.Overflow = false;
+  this->Surface.Engine().FindOnSegment(ToVec3(from), ToVec3(to), found);
+  this->Budget.Triangles -= found.Count;
+  isKnown = !found.Overflow && this->Budget.Triangles > 0;
+  bool isClean = true;
+  for (std::int32_t k = 0; k < found.Count && isClean && isKnown; ++k)
+  {
+    const Encloser kind = this->Surface.EncloserOf(found.Indices[k]);
+    if (kind != Encloser::None)
+    {
+      const auto [a, b, c] = this->CornersOf(found.Indices[k]);
+      const int crossing = CrossingOf(from, to, a, b, c);
+      isClean = crossing != 2;
+      (kind == Encloser::Front ? crossings.Front : crossings.Both) += crossing;
+    }
+  }
+  return isClean;
+}
+
+bool SurfaceSide::CountInPatch(const SurfacePatch& patch, const Vector& x, Enclosed& enclosed)
+{
+  if (!patch.Enclosure().IsCounted || !patch.Knows(ToVec3(x)))
+  {
+    return false;
+  }
+  const Vector anchor = ToVector(patch.Enclosure().Anchor);
+  Enclosed counted;
+  (this->Surface.Enclosing().OneSided == Encloser::Front ? counted.Front : counted.Both) =
+    patch.Enclosure().Count;
+  bool isKnown = true;
+  // Straight, or by a place elsewhere in the region.
+  enclosed = counted;
+  bool isClean = this->AddCrossings(x, anchor, enclosed, isKnown);
+  for (std::size_t i = 0; i < Directions.size() && isKnown && !isClean; ++i)
+  {
+    const auto& [u, v, w] = Directions[i];
+    const Vector bend =
+      ToVector(patch.Region().From) + 0.5 * patch.Region().Radius * glm::normalize(Vector(u, v, w));
+    enclosed = counted;
+    isClean = this->AddCrossings(x, bend, enclosed, isKnown) && isKnown &&
+      this->AddCrossings(bend, anchor, enclosed, isKnown);
+  }
+  return isClean && isKnown;
+}
+
 bool SurfaceSide::CountEnclosing(const Vector& x, Enclosed& enclosed)
 {
   enclosed = Enclosed();
@@ -60,6 +110,10 @@ bool SurfaceSide::CountEnclosing(const Vector& x, Enclosed& enclosed)
   if (glm::length(x) > radius)
   {
     return true; // no triangle is this far out
+  }
+  if (const SurfacePatch* const patch = this->Surface.Patch())
+  {
+    return this->CountInPatch(*patch, x, enclosed);
   }
   for (const auto& [u, v, w] : Directions)
   {
@@ -69,40 +123,27 @@ bool SurfaceSide::CountEnclosing(const Vector& x, Enclosed& enclosed)
     const double outside = 1.05 * radius;
     const Vector to =
       x + (std::sqrt(along * along - SquaredLength(x) + outside * outside) - along) * direction;
-    TriangleList found = this->Scratch;
-    found.Count = 0;
-    found.Overflow = false;
-    this->Surface.Engine().FindOnSegment(ToVec3(x), ToVec3(to), found);
-    this->Budget.Triangles -= found.Count;
-    if (found.Overflow || this->Budget.Triangles <= 0)
-    {
-      return false;
-    }
-    bool isClean = true;
     Enclosed crossings;
-    for (std::int32_t k = 0; k < found.Count && isClean; ++k)
-    {
-      const Encloser kind = this->Surface.EncloserOf(found.Indices[k]);
-      if (kind != Encloser::None)
-      {
-        const int crossing = this->Crossing(x, to, found.Indices[k]);
-        isClean = crossing != 2;
-        (kind == Encloser::Front ? crossings.Front : crossings.Both) += crossing;
-      }
-    }
-    if (isClean)
+    bool isKnown = true;
+    const bool isClean = this->AddCrossings(x, to, crossings, isKnown);
+    if (isClean || !isKnown)
     {
       enclosed = crossings;
-      return true;
+      return isKnown;
     }
   }
   return false;
 }
 
+bool SurfaceSide::IsInReach(const Vector& x) const
+{
+  return glm::length(x) <= 1.5 * this->Surface.Radius();
+}
+
 bool SurfaceSide::FindNearest(const Vector& x, const Encloser* kind, SurfacePlace& nearest)
 {
   const double surfaceRadius = this->Surface.Radius();
-  if (glm::length(x) > 1.5 * surfaceRadius)
+  if (!this->IsInReach(x))
   {
     return false;
   }
@@ -122,7 +163,8 @@ bool SurfaceSide::FindNearest(const Vector& x, const Encloser* kind, SurfacePlac
     }
     if (!found.Overflow && this->ChooseNearest(x, kind, found, nearest) <= radius)
     {
-      return true;
+      const SurfacePatch* const patch = this->Surface.Patch();
+      return !patch || !kind || patch->HoldsNearest(ToVec3(x), glm::length(nearest.Point - x));
     }
     (found.Overflow ? large : small) = radius;
     radius = large < HUGE_VAL ? 0.5 * (small + large) : 2.0 * radius;
@@ -160,7 +202,7 @@ double SurfaceSide::ChooseNearest(
         continue;
       }
       const double cosine = distance > 0.0 ? std::abs(glm::dot(facet.Normal, way)) / distance : 1.0;
-      if (distance > best * (1.0 + Tie))
+      if (distance > best * (1.0 + EqualDistance))
       {
         continue;
       }
@@ -176,7 +218,7 @@ double SurfaceSide::ChooseNearest(
           const double off = glm::length(glm::cross(edge, nearest.Point - from));
           nearest.IsOnRim = nearest.IsOnRim ||
             (this->Surface.AdjacentTriangles()[id][k3] == BoundaryEdge &&
-              off <= Tie * SquaredLength(edge));
+              off <= EqualDistance * SquaredLength(edge));
         }
       }
     }

@@ -21,6 +21,11 @@ struct Enclosed
   int Both = 0;  ///< by what is counted as Encloser::Both
 };
 
+/// How a straight way crosses a triangle: 0: not, +1 or -1: from back or front; 2: along an edge,
+/// by a corner, or with an end on it. Exact.
+VTKHAPTICSCORE_EXPORT int CrossingOf(
+  const Vector& from, const Vector& to, const Vector& a, const Vector& b, const Vector& c);
+
 /// A place of a surface.
 struct SurfacePlace
 {
@@ -33,7 +38,7 @@ struct SurfacePlace
 
 /// @brief On which side of a whole surface a point is, and the nearest way to the other.
 ///
-/// What is asked when a surface has changed all at once, so that no motion tells. Local frame of
+/// What is asked when a surface has changed all at once, so that no motion shows. Local frame of
 /// the surface, at a fraction of its deformation's time. Servo thread: no allocation; bounded by
 /// the budget.
 class SurfaceSide
@@ -44,11 +49,15 @@ public:
     const TriangleSurface& surface, double fraction, TriangleList scratch, WorkBudget& budget);
 
   /// How often the triangles that enclose space do so with the point. Exact, by the crossings of a
-  /// ray. False where it cannot be told: too many triangles in the way.
+  /// ray, in a patch of the way from its anchor. False where it is not known: too many triangles in
+  /// the way, or beyond the patch.
   bool CountEnclosing(const Vector& x, Enclosed& enclosed);
 
+  /// Whether a point is so near to the surface, against its size, that the nearest place matters.
+  bool IsInReach(const Vector& x) const;
   /// The nearest place of the triangles that enclose in one way, or of all where `kind` is null.
-  /// False where there is none within reach, or too many are as near.
+  /// False where there is none within reach, or too many are as near. In a patch, where `kind` is
+  /// given, false also where something beyond it may be nearer.
   bool FindNearest(const Vector& x, const Encloser* kind, SurfacePlace& nearest);
 
 private:
@@ -57,8 +66,10 @@ private:
     Vector A, B, C;
   };
   Corners CornersOf(std::int32_t triangle) const;
-  /// 0: not crossed, +1 or -1: crossed from back or front; 2: along an edge or a corner.
-  int Crossing(const Vector& from, const Vector& to, std::int32_t triangle) const;
+  /// Adds the crossings of a way. False where it meets an edge or a corner, `isKnown` where too
+  /// many are in the way.
+  bool AddCrossings(const Vector& from, const Vector& to, Enclosed& crossings, bool& isKnown);
+  bool CountInPatch(const SurfacePatch& patch, const Vector& x, Enclosed& enclosed);
   /// The nearest place of what was found, and how far it is: HUGE_VAL where there is none.
   double ChooseNearest(
     const Vector& x, const Encloser* kind, const TriangleList& found, SurfacePlace& nearest) const;

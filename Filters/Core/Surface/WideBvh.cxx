@@ -1,8 +1,11 @@
 #include "haptics/Surface/WideBvh.h"
 
+#include "haptics/Math/LaneMask.h"
+#include "haptics/Math/ParallelFor.h"
 #include "haptics/Math/VectorClones.h"
 #include "haptics/Surface/TriangleBounds.h"
 
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -89,16 +92,6 @@ using Reals = float __attribute__((vector_size(sizeof(Lanes))));
 #define HAPTICS_GRID(lanes, k)                                                                     \
   __builtin_convertvector(((lanes) >> (WideBvhNode::Bits * (k))) & LastStep, Reals)
 
-/// One bit a child.
-HAPTICS_ALWAYS_INLINE unsigned MaskOf(const Lanes& isMet)
-{
-  const Lanes bits = isMet & Lanes{ 1, 2, 4, 8, 16, 32, 64, 128 };
-  std::uint64_t pairs[4];
-  std::memcpy(pairs, &bits, sizeof(pairs));
-  const std::uint64_t all = pairs[0] | pairs[1] | pairs[2] | pairs[3];
-  return static_cast<unsigned>(all | all >> 32);
-}
-
 struct Ball
 {
   float Centre[3];
@@ -145,28 +138,83 @@ struct Segment
   }
 };
 
+/// So many of the nodes to come are called for before they are looked at.
+constexpr int CalledFor = 3;
+
+/// For each mask of eight bits the places of those that are set, and after them some that are not.
+constexpr auto PlacesOfSet = []
+{
+  std::array<std::array<std::int32_t, Width>, 1 << Width> places{};
+  for (std::size_t mask = 0; mask < places.size(); ++mask)
+  {
+    std::size_t count = 0;
+    for (std::int32_t i = 0; i < Width; ++i)
+    {
+      if ((mask >> i & 1u) != 0)
+      {
+        places[mask][count++] = i;
+      }
+    }
+  }
+  return places;
+}();
+
+/// Writes values(i) for each bit i of the mask, and what follows them is overwritten too: up to
+/// `Width` in all. Returns how many count. No branch hangs on the mask: it would be foreseen badly.
+template <class Values>
+HAPTICS_ALWAYS_INLINE int WriteSet(unsigned mask, const Values& values, decltype(values(0))* to)
+{
+  const auto& places = PlacesOfSet[mask];
+  for (int i = 0; i < Width; ++i)
+  {
+    to[i] = values(places[i]);
+  }
+  return __builtin_popcount(mask);
+}
+
 template <class Region>
 HAPTICS_ALWAYS_INLINE void Find(const WideBvh& tree, const Region& region, TriangleList& found)
 {
-  std::uint32_t stack[(Width - 1) * WideBvh::LargestDepth + 1];
+  // The first entries are there only to be called for.
+  std::uint32_t stack[CalledFor + (Width - 1) * WideBvh::LargestDepth + 1 + Width];
   int size = 0;
-  stack[size++] = 0;
-  while (size > 0)
+  while (size <= CalledFor)
+  {
+    stack[size++] = 0;
+  }
+  while (size > CalledFor)
   {
     const WideBvhNode& node = tree.Nodes[stack[--size]];
     const unsigned nodes = node.NumberOfNodes;
-    unsigned met = region.Meets(node) & ((1u << (nodes + node.NumberOfTriangles)) - 1u);
-    for (; met != 0; met &= met - 1)
+    const unsigned met = region.Meets(node) & ((1u << (nodes + node.NumberOfTriangles)) - 1u);
+    const unsigned metNodes = met & ((1u << nodes) - 1u);
+    const unsigned metTriangles = met >> nodes;
+    if (metNodes != 0)
     {
-      const unsigned child = static_cast<unsigned>(__builtin_ctz(met));
-      if (child < nodes)
+      const std::uint32_t first = node.FirstNode;
+      size += WriteSet(
+        metNodes, [first](int i) { return first + static_cast<std::uint32_t>(i); }, stack + size);
+      for (int i = 1; i <= CalledFor; ++i)
       {
-        const std::uint32_t index = node.FirstNode + child;
-        __builtin_prefetch(&tree.Nodes[index]);
-        __builtin_prefetch(reinterpret_cast<const char*>(&tree.Nodes[index]) + 64);
-        stack[size++] = index;
+        const auto* const next = reinterpret_cast<const char*>(&tree.Nodes[stack[size - i]]);
+        __builtin_prefetch(next);
+        __builtin_prefetch(next + 64);
       }
-      else if (!found.Add(tree.Order[node.FirstTriangle + child - nodes]))
+    }
+    if (metTriangles == 0)
+    {
+      continue;
+    }
+    const std::int32_t* const order = &tree.Order[node.FirstTriangle];
+    if (found.Capacity - found.Count >= Width)
+    {
+      found.Count += WriteSet(
+        metTriangles, [order](int i) { return order[i]; }, found.Indices + found.Count);
+      continue;
+    }
+    for (unsigned rest = metTriangles; rest != 0; rest &= rest - 1)
+    {
+      if (!found.Add(order[__builtin_ctz(rest)]))
       {
         return;
       }
@@ -192,7 +240,7 @@ void WideBvh::Fit(const EngineInput& input)
   this->Scale = std::exp2(-std::ceil(std::log2(input.Radius)));
   const double pad = Pad + input.Margin * this->Scale;
   std::vector<Box> boxes(this->Nodes.size());
-  for (std::size_t i = this->Nodes.size(); i-- > 0;) // children come after their parents
+  const auto fit = [&](std::size_t i)
   {
     WideBvhNode& node = this->Nodes[i];
     Box children[Width];
@@ -210,6 +258,21 @@ void WideBvh::Fit(const EngineInput& input)
       boxes[i].Add(children[j]);
     }
     Quantize(boxes[i], children, count, node);
+  };
+  // Children come after their parents.
+  ParallelFor(this->Subtrees.size(), 1,
+    [&](std::size_t first, std::size_t)
+    {
+      const Subtree& subtree = this->Subtrees[first];
+      for (std::size_t i = subtree.End; i-- > subtree.First;)
+      {
+        fit(i);
+      }
+    });
+  for (std::size_t i = this->Subtrees.empty() ? this->Nodes.size() : this->Subtrees.front().First;
+       i-- > 0;)
+  {
+    fit(i);
   }
 }
 
@@ -241,6 +304,6 @@ void WideBvh::FindOnSegment(const Vec3& from, const Vec3& to, TriangleList& foun
 std::size_t WideBvh::MemoryBytes() const
 {
   return this->Nodes.capacity() * sizeof(WideBvhNode) +
-    this->Order.capacity() * sizeof(std::int32_t);
+    this->Order.capacity() * sizeof(std::int32_t) + this->Subtrees.capacity() * sizeof(Subtree);
 }
 }

@@ -36,10 +36,19 @@ public:
   /// More levels than this are refused by the builder: it bounds the stack of a query.
   static constexpr int LargestDepth = 40;
 
-  std::vector<WideBvhNode> Nodes;  ///< the root first, children after their parents
-  std::vector<std::int32_t> Order; ///< triangle indices, as nodes refer to them
+  /// A node and what is under it, which Fit() leaves to one thread.
+  struct Subtree
+  {
+    std::uint32_t Root;
+    std::uint32_t First, End; ///< all nodes under it, and no others
+  };
 
-  /// Works out all boxes from the points. Throws std::bad_alloc.
+  std::vector<WideBvhNode> Nodes; ///< the root first, children after their parents
+  /// Triangle indices, as nodes refer to them, and WideBvhNode::Width more, read but not used.
+  std::vector<std::int32_t> Order;
+  std::vector<Subtree> Subtrees; ///< in the order of their nodes, which are the last ones
+
+  /// Works out all boxes from the points, by several threads. Throws std::bad_alloc.
   void Fit(const EngineInput& input);
 
   /// As CollisionEngine's.

@@ -52,7 +52,7 @@ const Contact& ContactTick::Take(const Contact& contact, const Vec3& devicePosit
   this->InDevice.Position =
     ToVec3(ToVector(devicePosition) + ToVector(this->InDevice.Displacement));
   this->InDevice.Penetration = glm::length(ToVector(this->InDevice.Displacement));
-  this->InDevice.Carried = deviceToWorld.VectorToDevice(contact.Carried);
+  this->InDevice.SurfaceDisplacement = deviceToWorld.VectorToDevice(contact.SurfaceDisplacement);
   for (int i = 0; i < contact.NumberOfConstraints; ++i)
   {
     this->InDevice.Constraints[i].Normal =
@@ -60,7 +60,7 @@ const Contact& ContactTick::Take(const Contact& contact, const Vec3& devicePosit
   }
   if (contact.Status == UpdateStatus::InvalidHip)
   {
-    this->InDevice.Carried = {};
+    this->InDevice.SurfaceDisplacement = {};
     this->InDevice.Material = haptics::Material();
   }
   Material& material = this->InDevice.Material;
@@ -87,7 +87,7 @@ void ContactTick::Record(
   if (record.NumberOfConstraints > 0)
   {
     const Constraint& strongest = record.Constraints[0];
-    record.Local = god.LocalPosition(record.Constraints[0].Surface);
+    record.Local = god.LocalTouch(strongest);
     record.DeformFraction = god.DeformFraction(record.Constraints[0].Surface);
     const TriangleSurface& surface =
       *god.Surfaces()[static_cast<std::size_t>(strongest.Surface)].Surface;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace haptics
 {
@@ -80,6 +81,26 @@ SurfaceForce::Wish SurfaceForce::WishOf(
   }
   wish.Gradient = ToVec3(gradient);
   return wish;
+}
+
+/// What an exchange has softened goes evenly, over `time` from one on; 0: there was none. `limit`
+/// is the largest gain.
+void SurfaceForce::FallSoftly(
+  Wish& wish, double time, double limit, double depth, double period) noexcept
+{
+  const double wanted = wish.Gain;
+  const double fall = this->WantedGain - wanted;
+  const double step = std::min(period, this->LongestFall);
+  this->Excess = std::max(0.0, this->Excess - this->ExcessRate * step);
+  if (time > 0.0 && this->WasTouching && fall * depth > this->SmallestFall)
+  {
+    this->Excess += fall;
+    this->ExcessRate = this->Excess / time;
+  }
+  // No more than the spring had.
+  this->Excess = std::min(this->Excess, std::max(0.0, this->Gain - wanted));
+  wish.Gain = std::max(wanted, std::min(wanted + this->Excess, limit));
+  this->WantedGain = wanted;
 }
 
 /// What acts across the spring: the potential's slope along the surface, and the resistance by
@@ -201,6 +222,7 @@ Vec3 SurfaceForce::PlainForce(const Contact& contact, double depth, double plain
   this->Limited = false;
   this->HeldBack = false;
   this->Gain = plainStiffness;
+  this->WantedGain = plainStiffness;
   this->Stiffness = plainStiffness;
   this->Depth = depth;
   this->Stored = 0.5 * plainStiffness * depth * depth;
@@ -217,6 +239,7 @@ Vec3 SurfaceForce::PlainForce(const Contact& contact, double depth, double plain
 Vec3 SurfaceForce::Update(const Contact& contact, double period, double plainStiffness,
   const MaterialLimits& limits) noexcept
 {
+  const double fallTime = std::exchange(this->FallTime, 0.0);
   const Vector displacement = ToVector(contact.Displacement);
   const double depth = glm::length(displacement);
   if (!contact.IsTouching() || !std::isfinite(depth) || depth == 0.0)
@@ -235,12 +258,21 @@ Vec3 SurfaceForce::Update(const Contact& contact, double period, double plainSti
   Vector step(0.0);
   if (this->WasTouching)
   {
-    step = ToVector(contact.Hip) - ToVector(this->Position) - ToVector(contact.Carried);
+    step = ToVector(contact.Hip) - ToVector(this->Position) - ToVector(contact.SurfaceDisplacement);
     const double weight = period > 0.0 ? period / (period + VelocitySmoothing) : 0.0;
     const Vector velocity = period > 0.0 ? step / period : Vector(0.0);
     this->Velocity = ToVec3(glm::mix(ToVector(this->Velocity), velocity, weight));
   }
-  const Wish wish = this->WishOf(contact, plainStiffness, limits);
+  Wish wish = this->WishOf(contact, plainStiffness, limits);
+  if (!contact.Material.Profile && !this->Profile)
+  {
+    this->FallSoftly(wish, fallTime, limits.Stiffness, depth, period);
+  }
+  else // gains of profiles are no stiffnesses: the force follows at once
+  {
+    this->WantedGain = wish.Gain;
+    this->Excess = 0.0;
+  }
   const Vec3 lateral = this->Lateral(contact, wish, depth);
   this->SetGain(contact, wish, depth, ToVec3(step), lateral, period);
   this->Stiffness = this->Gain * (this->Profile ? this->Profile->SteepestSlope() : 1.0);

@@ -27,7 +27,7 @@ struct MaterialLimits
 /// with the depth d = |p - h|, n = (p - h) / d, phi the depth or a profile, U its integral over the
 /// depth, P the projection on the directions in which the planes in contact let the god-object go.
 ///
-/// **What varies over a surface is felt while sliding.** The first two terms are the slope of one
+/// **What varies over a surface acts while sliding.** The first two terms are the slope of one
 /// potential, gain(p) U(d) (for a linear spring K(p) d^2 / 2): from soft to hard a hand does work
 /// against the second one, from hard to soft it gets it back. It takes SlopeMargin more than it
 /// gives, for what happens within a tick. It acts on what has a gradient (values at points,
@@ -43,7 +43,7 @@ struct MaterialLimits
 ///
 /// The tank holds no more than what one contact can need: dK d^2 / 2 up to the stiffest place of
 /// the surface, and with force shading, which pushes the way the hand goes only as far as the tank
-/// holds, as much as is in the spring. It leaks, with a time constant of TankMemory: what is felt
+/// holds, as much as is in the spring. It leaks, with a time constant of TankMemory: the force
 /// does not depend on what was rubbed before. A debt of Credit of what is in the spring may stand
 /// while the hand slides; it is taken off the gain as the hand lets go.
 ///
@@ -51,6 +51,10 @@ struct MaterialLimits
 /// motion against the surface, which may move; that a servo holds the force instead is what the
 /// device's own damping pays for, under K <= 2b/T. What is left when the hand lets go is forgotten;
 /// a debt is kept. Force that the largest force cuts off fills no tank.
+///
+/// **An exchange that softens** under the hand (another array, a constant in its place) lowers the
+/// gain evenly over some time, and not within a tick: see NoticeExchange(). On its way down the
+/// gain fills the tank as ever.
 ///
 /// **Damping** uses the velocity of the HIP against the surface, from the second tick of a contact
 /// on, through a filter of first order with a time constant of 5 ms: that is its delay, for all
@@ -69,6 +73,15 @@ public:
 
   /// Forgets everything.
   void Restart() noexcept { *this = SurfaceForce(); }
+  /// Materials have been exchanged: where the gain of the next Update() falls by that, it falls
+  /// over `time` [s], where a late tick counts for `longest` [s] at most. What falls by less than
+  /// `smallest` [N] is the hand's own way, and follows at once.
+  void NoticeExchange(double time, double longest, double smallest) noexcept
+  {
+    this->FallTime = time;
+    this->LongestFall = longest;
+    this->SmallestFall = smallest;
+  }
   /// The force [N], not longer than the largest one. `contact`: device frame; `period` since the
   /// last tick [s]; `plainStiffness` [N/m] is that of surfaces which have none of their own. Zero
   /// in free space, and where the displacement is not finite.
@@ -98,6 +111,7 @@ private:
     Vec3 Gradient{};      ///< of the gain, in the directions that are free [per m]
   };
   Wish WishOf(const Contact& contact, double plainStiffness, const MaterialLimits& limits) noexcept;
+  void FallSoftly(Wish& wish, double time, double limit, double depth, double period) noexcept;
   Vec3 Lateral(const Contact& contact, const Wish& wish, double depth) const noexcept;
   void SetGain(const Contact& contact, const Wish& wish, double depth, const Vec3& step,
     const Vec3& lateral, double period) noexcept;
@@ -111,6 +125,12 @@ private:
   bool HeldBack = false;
   double Tank = 0.0;
   double Gain = 0.0;
+  double WantedGain = 0.0;   ///< at the last tick
+  double Excess = 0.0;       ///< of the gain, from before an exchange that softened
+  double ExcessRate = 0.0;   ///< at which that goes [per s]
+  double FallTime = 0.0;     ///< of an exchange since the last tick; 0: there was none [s]
+  double LongestFall = 0.0;  ///< in one tick [s]
+  double SmallestFall = 0.0; ///< [N]
   double Stiffness = 0.0;
   double Missing = 0.0;                  ///< for the gain that is wanted [J]
   double Depth = 0.0;                    ///< at the last tick [m]

@@ -21,8 +21,8 @@ struct TickRecord : Contact
   Vec3 Force{};              ///< asked for, device frame [N]
   Vec3 WorldForce{};         ///< the same along the world's axes [N]
 
-  /// The god-object in the frame of the first constraint's surface, relative to that snapshot's
-  /// Origin(); surfaces move, this stays with them.
+  /// The god-object, or of a ball the place that it touches, in the frame of the first constraint's
+  /// surface, relative to that snapshot's Origin(); surfaces move, this stays with them.
   Vec3 Local{};
   /// How much each corner of the first constraint's triangle counts there: >= 0, sum 1; 0 in free
   /// space.

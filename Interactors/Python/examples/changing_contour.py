@@ -132,9 +132,9 @@ for frame in range(FRAMES):
 if len(sys.argv) > 1:
     draw_loop(sys.argv[1])
 
-felt = scene.GetTrace()
-force = vtk_to_numpy(felt.GetPointData().GetArray("Force"))
-touching = vtk_to_numpy(felt.GetPointData().GetArray("ActiveConstraints")) > 0
+trace = scene.GetTrace()
+force = vtk_to_numpy(trace.GetPointData().GetArray("Force"))
+touching = vtk_to_numpy(trace.GetPointData().GetArray("ActiveConstraints")) > 0
 jump = np.linalg.norm(np.diff(force, axis=0), axis=1).max()
 print(
     f"{len(outside)} contours, {touching.mean():.0%} of {len(touching)} ticks touch; up to "

@@ -1,4 +1,4 @@
-"""Replays a path over a sphere, without a device, and plots what would be felt.
+"""Replays a path over a sphere, without a device, and plots the forces.
 
 usage: offline_trace.py [PICTURE.png]
 """
@@ -45,19 +45,19 @@ assert abs(force.max() - 500.0 * 0.002) < 0.02, "stiffness times depth"
 try:
     import matplotlib
 except ImportError:
-    print("no plot: matplotlib is not installed (Debian: apt-get install python3-matplotlib)")
+    print("no plot: matplotlib is not installed (pip install matplotlib)")
     sys.exit()
 matplotlib.use("Agg")  # draws into a file, without a display
 from matplotlib import pyplot
 
 god = vtk_to_numpy(trace.GetOutput().GetPoints().GetData())
-figure, (side, felt) = pyplot.subplots(2, sharex=True, layout="constrained")
+figure, (side, forces) = pyplot.subplots(2, sharex=True, layout="constrained")
 side.plot(1e3 * hand[:, 0], 1e3 * hand[:, 2], label="device")
 side.plot(1e3 * god[:, 0], 1e3 * god[:, 2], label="god-object")
 side.set_ylabel("height [mm]")
 side.legend()
-felt.plot(1e3 * hand[:, 0], force, color="firebrick")
-felt.set(xlabel="x [mm]", ylabel="force [N]")
+forces.plot(1e3 * hand[:, 0], force, color="firebrick")
+forces.set(xlabel="x [mm]", ylabel="force [N]")
 picture = sys.argv[1] if len(sys.argv) > 1 else os.path.join(tempfile.mkdtemp(), "trace.png")
 with whole_file(picture) as file:
     figure.savefig(file, format="png")

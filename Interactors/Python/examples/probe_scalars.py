@@ -1,4 +1,4 @@
-"""Touches a surface with values and reads them at each contact, as events tell them."""
+"""Touches a surface with values and reads them at each contact, from the events' data."""
 
 from vtkmodules.util.misc import calldata_type
 from vtkmodules.util.vtkConstants import VTK_OBJECT
@@ -20,12 +20,12 @@ device, scene = vtkSimulatedHapticDevice(), vtkHapticScene()
 scene.SetDevice(device)
 scene.AddSurface(height.GetOutputPort())
 
-felt = []
+values = []
 
 
 @calldata_type(VTK_OBJECT)
 def on_slide(_scene, _event, probe):
-    felt.append(probe.GetValue("Elevation"))
+    values.append(probe.GetValue("Elevation"))
 
 
 scene.AddObserver(scene.ContactSlideEvent, on_slide)
@@ -34,9 +34,9 @@ scene.Step(1)
 for step in range(50):
     device.SetPosition(0.0006 * step, 0.0, 0.04)
     scene.Step(1)
-print(f"{len(felt)} values, from {felt[0]:.3f} at the top to {felt[-1]:.3f}")
+print(f"{len(values)} values, from {values[0]:.3f} at the top to {values[-1]:.3f}")
 print(scene.GetProbe().GetText())
-assert felt[0] > 0.99 and felt[-1] < 0.95
-assert all(a >= b - 1e-3 for a, b in zip(felt, felt[1:])), "it goes downhill"
+assert values[0] > 0.99 and values[-1] < 0.95
+assert all(a >= b - 1e-3 for a, b in zip(values, values[1:])), "it goes downhill"
 scene.DropLandmark()
 assert scene.GetLandmarks().GetNumberOfLandmarks() == 1

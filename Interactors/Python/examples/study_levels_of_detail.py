@@ -36,11 +36,11 @@ path = middle + 0.47 * size * (np.sin(turn) * [1.0, 0.0, 0.0] + np.cos(turn) * [
 path = np.vstack([middle + np.linspace(0.7, 0.47, 300)[:, None] * size * [0.0, 0.0, 1.0], path])
 
 scale = 0.1 / size  # the hand's space: 100 mm across
-felt = [vtkhaptics.trace(level, path, scale=scale) for level in (fine, coarse)]
-error = np.linalg.norm(felt[0].force - felt[1].force, axis=1)
-both = felt[0].touching & felt[1].touching
-strongest = felt[0].magnitude.max()
-for level, trace in zip((fine, coarse), felt):
+traces = [vtkhaptics.trace(level, path, scale=scale) for level in (fine, coarse)]
+error = np.linalg.norm(traces[0].force - traces[1].force, axis=1)
+both = traces[0].touching & traces[1].touching
+strongest = traces[0].magnitude.max()
+for level, trace in zip((fine, coarse), traces):
     print(f"{level.GetOutput().GetNumberOfPolys():7d} triangles: {trace.touching.mean():.0%} in contact")
 print(
     f"error of the force: {np.sqrt(np.mean(error[both] ** 2)):.3f} N (r.m.s.), at most "
@@ -48,4 +48,4 @@ print(
 )
 assert both.any() and 0.0 < np.sqrt(np.mean(error[both] ** 2)) < 0.5 * strongest
 picture = sys.argv[2] if len(sys.argv) > 2 else os.path.join(tempfile.mkdtemp(), "levels.png")
-lines(picture, "tick", "force [N]", [t.magnitude for t in felt], ("fine", "coarse"))
+lines(picture, "tick", "force [N]", [t.magnitude for t in traces], ("fine", "coarse"))

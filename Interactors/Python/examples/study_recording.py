@@ -15,7 +15,7 @@ from vtkmodules.vtkFiltersSources import vtkPlaneSource
 try:
     import pandas
 except ImportError:
-    print("skipped: pandas is not installed (Debian: apt-get install python3-pandas)")
+    print("skipped: pandas is not installed (pip install pandas)")
     sys.exit(77)
 
 file = sys.argv[1] if len(sys.argv) > 1 else os.path.join(tempfile.mkdtemp(), "taps.haptic")

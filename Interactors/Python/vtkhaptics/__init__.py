@@ -1,4 +1,4 @@
-"""Feel the surface of any vtkPolyData with a haptic device.
+"""Touch the surface of any vtkPolyData with a haptic device.
 
 Where to begin
 --------------
@@ -41,9 +41,19 @@ except ImportError as error:
     import glob
     import os
 
-    if glob.glob(os.path.join(os.path.dirname(__file__), "libvtkHaptics*.so")):  # made by pip
+    if glob.glob(os.path.join(os.path.dirname(__file__), "lib", "libvtkHaptics*.so")):  # made by pip
+        from ._version import vtk_version
+
+        series = vtk_version.rpartition(".")[0]
+        try:
+            from vtkmodules.vtkCommonCore import vtkVersion
+
+            found = f"VTK {vtkVersion.GetVTKVersion()}"
+        except ImportError:
+            found = "no VTK"
         remedy = (
-            "It was installed for another VTK or another Python: install it again, with the pip of "
+            f"It was made for VTK {series}, and this Python has {found}. Install that VTK "
+            f"(python3 -m pip install 'vtk=={series}.*'), or install vtkhaptics again with the pip of "
             "the Python that runs, and where that imports vtkmodules."
         )
     else:

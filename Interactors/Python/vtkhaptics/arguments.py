@@ -19,14 +19,14 @@ EPILOG = """examples:
   python3 -m vtkhaptics skull.vtp vessel.stl --stiffness 800 --side both
       two surfaces at once, harder, touched from inside too; x carries the one that is touched
   python3 -m vtkhaptics t13.stl --offscreen --screenshot t13.png --trace t13.vtp
-      no window: a picture and what was felt, one point a tick
+      no window: a picture and the trace, one point a tick
   python3 -m vtkhaptics t13.stl --device t13.vtp
-      feel a recorded path again
+      touch along a recorded path again
 
 without a window (--offscreen) time is virtual, so that every run gives the same picture; nobody
 moves the mouse there, so it strokes across the middle of the view by itself.
 
-a large surface is prepared while the window shows it already, with how far it is at the lower left;
+a large surface is prepared while the window shows it already, with the progress at the lower left;
 closing the window gives it up.
 
 few files name their length unit (glTF, DICOM, NIfTI and GIfTI do): sizes are shown in the file's own, or
@@ -45,6 +45,23 @@ class ListDevices(argparse.Action):
         for name, state in list_devices():
             print(f"{name:<16}  {state}")
         parser.exit()
+
+
+def add_seconds(parser, default, what):
+    """Adds the option --seconds, which check_seconds() checks."""
+    parser.add_argument(
+        "--seconds",
+        type=float,
+        default=default,
+        metavar="S",
+        help=f"{what}, 2 to 600 (default {default:g})",
+    )
+
+
+def check_seconds(parser, options):
+    """Exits with 2 where --seconds is out of range."""
+    if not 2.0 <= options.seconds <= 600.0:
+        parser.error(f"--seconds {options.seconds:g} is out of range; give 2 to 600")
 
 
 def parse(arguments):
@@ -92,12 +109,28 @@ def parse(arguments):
         type=float,
         default=500.0,
         metavar="K",
-        help="of the surfaces in the hand [N/m], above 0 (default 500)",
+        help="of the surfaces in the hand [N/m], above 0, up to 1e6 (default 500)",
     )
     parser.add_argument(
         "--stiffness-array",
         metavar="ARRAY",
         help="point or cell array with the stiffness of each place [N/m]",
+    )
+    parser.add_argument(
+        "--tip-radius",
+        type=float,
+        default=0.0,
+        metavar="M",
+        help="of the ball that touches [m], in the hand: it rounds edges and comes into no gap narrower than "
+        "itself; 0, the default, is a point",
+    )
+    parser.add_argument(
+        "--substeps",
+        type=int,
+        default=1,
+        metavar="N",
+        help="in how many substeps a tick may follow the hand's way since the tick before, 1 to 16 (default 1: off; "
+        "4 are enough), on rough ground and in folds, where the contact else depends on how often the hand is sampled",
     )
     parser.add_argument(
         "--friction",
@@ -135,18 +168,12 @@ def parse(arguments):
     parser.add_argument(
         "--screenshot", metavar="FILE", help="write a PNG of the end, or when the window is closed"
     )
-    parser.add_argument("--trace", metavar="FILE", help="write what was felt as .vtp")
+    parser.add_argument("--trace", metavar="FILE", help="write the trace as .vtp")
     parser.add_argument(
         "--landmarks", metavar="FILE", help="write what d has dropped as .csv: place, values, label"
     )
     parser.add_argument("--offscreen", action="store_true", help="open no window")
-    parser.add_argument(
-        "--seconds",
-        type=float,
-        default=8.0,
-        metavar="S",
-        help="how long a simulated hand strokes, or an off-screen run takes, 2 to 600 (default 8)",
-    )
+    add_seconds(parser, 8.0, "how long a simulated hand strokes, or an off-screen run takes")
     parser.add_argument(
         "--size",
         type=int,
@@ -156,8 +183,14 @@ def parse(arguments):
         help="of the picture [pixel], 100 to 8000 (default 1200 800)",
     )
     options = parser.parse_args(arguments)
-    if not 0.0 < options.stiffness < 1e6:
-        parser.error(f"--stiffness {options.stiffness:g} is out of range; give 0 to 1e6 N/m")
+    if not 0.0 < options.stiffness <= 1e6:
+        parser.error(
+            f"--stiffness {options.stiffness:g} is out of range; give a number above 0, up to 1e6 N/m"
+        )
+    if not 0.0 <= options.tip_radius <= 1.0:
+        parser.error(f"--tip-radius {options.tip_radius:g} is out of range; give 0 to 1 m")
+    if not 1 <= options.substeps <= 16:
+        parser.error(f"--substeps {options.substeps} is out of range; give 1 to 16")
     if not 0.0 <= options.friction <= 10.0:
         parser.error(f"--friction {options.friction:g} is out of range; give 0 to 10")
     if options.contour is not None and not math.isfinite(options.contour):
@@ -169,8 +202,7 @@ def parse(arguments):
         parser.error(f"--force-limit {options.force_limit:g} is out of range; give 0 to 50 N")
     if options.firmware and options.device.partition(":")[0] != "falcon":
         parser.error("--firmware is for --device falcon")
-    if not 2.0 <= options.seconds <= 600.0:
-        parser.error(f"--seconds {options.seconds:g} is out of range; give 2 to 600")
+    check_seconds(parser, options)
     if not all(100 <= pixels <= 8000 for pixels in options.size):
         parser.error(f"--size {options.size[0]} {options.size[1]} is out of range; give 100 to 8000")
     for name, extension in (("screenshot", ".png"), ("trace", ".vtp"), ("landmarks", ".csv")):

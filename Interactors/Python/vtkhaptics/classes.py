@@ -6,7 +6,7 @@ what ``vtkhaptics.vtkHapticScene`` is. It adds that
 - what fails raises, see :mod:`vtkhaptics.errors`;
 - observers take events by name, ``scene.AddObserver("ContactBeginEvent", ...)``, get an event's data
   as a third argument where they have one, and raise;
-- getters return tuples: ``device.GetPosition()`` beside VTK's ``device.GetPosition(list)``;
+- getters return tuples: ``device.GetPosition()`` as well as VTK's ``device.GetPosition(list)``;
 - ``with scene.engaged(): ...`` releases the hand however the block ends.
 
 From VTK 9.2 on objects that C++ has made are of these classes too (``scene.GetServo()``); with
@@ -22,7 +22,7 @@ from vtkmodules.vtkCommonCore import reference, vtkCommand, vtkObject, vtkObject
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 
 from . import vtkHapticsDevices, vtkHapticsFilters, vtkHapticsScene, vtkHapticsView
-from .errors import ERROR, WARNING, HapticsError, checked, guarded, watch
+from .errors import ERROR, WARNING, HapticsError, checked, guarded, handle, watch
 
 MODULES = (vtkHapticsFilters, vtkHapticsDevices, vtkHapticsScene, vtkHapticsView)
 
@@ -34,14 +34,15 @@ OUTPUTS = {
     "vtkMouseHapticDevice": {"GetTarget": (3,)},
     "vtkSharedHapticDevice": {"Exchange": (3,)},
     "vtkDriverHapticDevice": {"GetOrientation": (4,)},
-    "vtkHapticServo": {
+    "vtkHapticReadings": {
         name: (3,)
         for name in (
             "GetHapticInterfacePoint", "GetGodObject", "GetForce", "GetWorldForce",
             "GetDevicePosition",
         )
     },
-    "vtkHapticScene": {"IntersectRay": (3,)},
+    "vtkHapticSceneParts": {"IntersectRay": (3,)},
+    "vtkHapticSurfaces": {"IntersectRay": (3, 3)},
     "vtkHapticLandmarks": {"GetPosition": (3,)},
 }
 
@@ -127,30 +128,30 @@ class Extended:
         tag = vtkObject.AddObserver(self, event, _observer(observer, name), priority)
         if event in (ERROR, WARNING):
             self.__dict__.setdefault("_own_observers", {}).setdefault(int(event), set()).add(tag)
+            handle(self, event, True)
         return tag
 
     def RemoveObserver(self, observer):
         """RemoveObserver(tag) -> None"""
-        for tags in self.__dict__.get("_own_observers", {}).values():
-            tags.discard(observer)
         vtkObject.RemoveObserver(self, observer)
+        for event, tags in self.__dict__.get("_own_observers", {}).items():
+            if observer in tags:
+                tags.discard(observer)
+                handle(self, event, bool(tags))
 
     def RemoveObservers(self, event):
         """RemoveObservers(event) -> None: all of an event, by its name or number."""
         if isinstance(event, str):
             event = events_of(type(self)).get(event) or vtkCommand.GetEventIdFromString(event)
-        self._forget_observers(lambda: vtkObject.RemoveObservers(self, event))
+        vtkObject.RemoveObservers(self, event)
+        if event in (ERROR, WARNING):
+            self.__dict__.get("_own_observers", {}).pop(int(event), None)
+            watch(self)
 
     def RemoveAllObservers(self):
         """RemoveAllObservers() -> None"""
-        self._forget_observers(lambda: vtkObject.RemoveAllObservers(self))
-
-    def _forget_observers(self, remove):
-        remove()
-        for event in (ERROR, WARNING):
-            vtkObject.RemoveObservers(self, event)
+        vtkObject.RemoveAllObservers(self)
         self.__dict__.pop("_own_observers", None)
-        self._watched = False
         watch(self)
 
 
@@ -185,8 +186,7 @@ class Scene(Extended):
 
     def __init__(self, *arguments):
         super().__init__(*arguments)
-        self._servo = vtkHapticsScene.vtkHapticScene.GetServo(self)
-        watch(self._servo)
+        watch(vtkHapticsScene.vtkHapticScene.GetServo(self))
 
     @contextlib.contextmanager
     def engaged(self, camera=None):
@@ -257,9 +257,13 @@ _native = {
     for name, value in vars(module).items()
     if isinstance(value, type) and issubclass(value, vtkObjectBase)
     and value.__module__ == module.__name__
+    and name != "vtkReportCollector"  # the package's own, see errors.py
 }
 # Abstract ones stay as they are, so that isinstance() says what it should.
-_ABSTRACT = ("vtkHapticDevice", "vtkThreadedHapticDevice", "vtkDriverHapticDevice")
+_ABSTRACT = (
+    "vtkHapticDevice", "vtkThreadedHapticDevice", "vtkDriverHapticDevice", "vtkHapticPatchAlgorithm",
+    "vtkHapticSceneParts",
+)
 CLASSES = {
     name: class_ if name in _ABSTRACT else extend(class_)
     for name, class_ in _native.items()

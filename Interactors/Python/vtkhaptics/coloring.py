@@ -1,19 +1,20 @@
-"""Colours surfaces by their data arrays, with a scale beside."""
+"""Colours surfaces by their data arrays, with a scale bar."""
 
-from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
+from vtkmodules.vtkRenderingCore import vtkColorTransferFunction
 
+from .classes import CLASSES
 from .surfaces import default_array, value_arrays
 
 TEXT = (0.18, 0.21, 0.27)
 # Dark blue over green to yellow: even steps for the eye, readable without colours.
 VALUE_COLORS = (
-    (0.27, 0.00, 0.33),
-    (0.25, 0.27, 0.53),
-    (0.16, 0.47, 0.56),
-    (0.13, 0.66, 0.52),
-    (0.48, 0.82, 0.32),
-    (0.99, 0.91, 0.14),
+    (0.0, (0.27, 0.00, 0.33)),
+    (0.2, (0.25, 0.27, 0.53)),
+    (0.4, (0.16, 0.47, 0.56)),
+    (0.6, (0.13, 0.66, 0.52)),
+    (0.8, (0.48, 0.82, 0.32)),
+    (1.0, (0.99, 0.91, 0.14)),
 )
 
 
@@ -37,7 +38,7 @@ def color_by(actor, surface, wanted):
     mapper.SelectColorArray(name)
     if array.GetDataTypeAsString() == "unsigned char" and array.GetNumberOfComponents() > 2:
         return name, None
-    table = _value_colors(*array.GetRange(0))
+    table = value_colors(*array.GetRange(0))
     mapper.SetLookupTable(table)
     mapper.UseLookupTableScalarRangeOn()
     return name, table
@@ -48,20 +49,26 @@ def other_arrays(surface, name):
     return [other for other in value_arrays(surface) if other != name]
 
 
-def scalar_bar(table, name, size):
-    """The scale of a lookup table, at the right of a picture of this size [pixel]."""
+def scalar_bar(table, name, size=None):
+    """The scale of a table of colours, at the right of a picture of this size [pixel]; of a size that
+    changes with the picture's where that is None."""
     bar = vtkScalarBarActor()
     bar.SetLookupTable(table)
     bar.SetTitle(name)
     bar.SetNumberOfLabels(4)
     bar.SetLabelFormat("%.3g")
     bar.UnconstrainedFontSizeOn()
-    bar.SetBarRatio(0.2)
     bar.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
-    width, height = (min(1.0, p / all_) for p, all_ in zip((100, 280), size))
-    bar.SetWidth(width)
-    bar.SetHeight(min(height, 0.6))
-    bar.SetPosition(1.0 - width, 0.05)
+    if size is None:
+        bar.SetMaximumWidthInPixels(70)
+        bar.SetMaximumHeightInPixels(260)
+        bar.SetPosition(0.925, 0.05)
+    else:
+        bar.SetBarRatio(0.2)
+        width, height = (min(1.0, p / all_) for p, all_ in zip((100, 280), size))
+        bar.SetWidth(width)
+        bar.SetHeight(min(height, 0.6))
+        bar.SetPosition(1.0 - width, 0.05)
     for text in (bar.GetTitleTextProperty(), bar.GetLabelTextProperty()):
         text.SetColor(*TEXT)
         text.SetFontSize(15)
@@ -71,15 +78,18 @@ def scalar_bar(table, name, size):
     return bar
 
 
-def _value_colors(low, high):
-    table = vtkLookupTable()
-    table.SetNumberOfTableValues(256)
-    table.SetTableRange(low, high if high > low else low + 1.0)
-    table.SetNanColor(0.6, 0.6, 0.6, 1.0)
-    table.Build()
-    for i in range(256):
-        x = i / 255.0 * (len(VALUE_COLORS) - 1)
-        k = min(int(x), len(VALUE_COLORS) - 2)
-        below, above = VALUE_COLORS[k], VALUE_COLORS[k + 1]
-        table.SetTableValue(i, *(a + (x - k) * (b - a) for a, b in zip(below, above)), 1.0)
-    return table
+def force_colors(strongest):
+    """The transfer function from forces, 0 to the strongest [N], to the colours that the hand has."""
+    actor = CLASSES["vtkGodObjectActor"]()
+    actor.SetReferenceForce(max(strongest, 1e-12))
+    return actor.GetForceColors()
+
+
+def value_colors(low, high):
+    """The transfer function from values, low to high, to colours."""
+    ramp = vtkColorTransferFunction()
+    ramp.SetNanColor(0.6, 0.6, 0.6)
+    width = high - low if high > low else 1.0
+    for share, color in VALUE_COLORS:
+        ramp.AddRGBPoint(low + share * width, *color)
+    return ramp

@@ -8,7 +8,7 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from .volumes import NoSurfaceError
 
 FREESURFER = b"\xff\xff\xfe"  # how a surface of triangles begins; its name is like lh.pial
-INSTALL = "Install it (Debian: apt-get install python3-nibabel)."
+INSTALL = "Install it (pip install nibabel; Debian: apt-get install python3-nibabel)."
 
 
 def is_freesurfer(path):

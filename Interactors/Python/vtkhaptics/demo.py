@@ -1,4 +1,4 @@
-"""Touches a surface from a file for some seconds and shows what was felt.
+"""Touches a surface from a file for some seconds and shows the trace.
 
 The simulated device strokes the surface through the real servo thread, at 1000 ticks a second in
 real time. See --help.
@@ -16,6 +16,7 @@ from vtkmodules.util.vtkConstants import VTK_INT
 from vtkmodules.vtkRenderingCore import vtkRenderWindowInteractor
 
 from . import vtkGodObjectActor, vtkHapticScene, vtkInteractorStyleHaptic, vtkSimulatedHapticDevice
+from .arguments import add_seconds, check_seconds
 from .display import DisplayError, ensure_display
 from .errors import HapticsError
 from .interrupt import EXIT_INTERRUPTED, Interrupts
@@ -46,15 +47,15 @@ exit status:
 
 
 class DemoError(Exception):
-    """What went wrong and what to do, for people."""
+    """The message says what went wrong and what to do."""
 
 
 def parse(arguments):
     """The options of a command line; exits with 2 where they are wrong."""
     parser = argparse.ArgumentParser(
         prog="python3 -m vtkhaptics.demo",
-        description="Strokes a surface with a simulated haptic device in real time, draws what "
-        "was felt and prints how regular the servo was.",
+        description="Strokes a surface with a simulated haptic device in real time, draws the "
+        "trace and prints how regular the servo was.",
         epilog=EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
@@ -67,13 +68,7 @@ def parse(arguments):
     parser.add_argument(
         "--output", required=True, metavar="DIR", help="folder for the results, made if missing"
     )
-    parser.add_argument(
-        "--seconds",
-        type=float,
-        default=10.0,
-        metavar="S",
-        help="how long to stroke, 2 to 600 (default 10)",
-    )
+    add_seconds(parser, 10.0, "how long to stroke")
     parser.add_argument(
         "--offscreen", action="store_true", help="open no window, even where there is a display"
     )
@@ -81,8 +76,7 @@ def parse(arguments):
         "--stay", action="store_true", help="leave the window open at the end, until it is closed"
     )
     options = parser.parse_args(arguments)
-    if not 2.0 <= options.seconds <= 600.0:
-        parser.error(f"--seconds {options.seconds:g} is out of range; give 2 to 600")
+    check_seconds(parser, options)
     return options
 
 
@@ -198,6 +192,7 @@ def finish(scene):
 def table(scene, trace):
     """Rows of what was measured, the share of ticks in contact, and the largest force [N]."""
     servo = scene.GetServo()
+    readings = servo.GetReadings()
     data = trace.GetPointData()
     contact = float((vtk_to_numpy(data.GetArray("ActiveConstraints")) > 0).mean())
     force = np.linalg.norm(vtk_to_numpy(data.GetArray("Force")), axis=1)
@@ -205,12 +200,12 @@ def table(scene, trace):
         ("ticks", f"{servo.GetNumberOfTicks()}"),
         ("ticks in the trace", f"{trace.GetNumberOfPoints()}"),
         ("in contact", f"{100.0 * contact:.1f} %"),
-        ("rate", f"{servo.GetMeasuredRate():.1f} Hz"),
-        ("E[T^2]/E[T]", f"{1e3 * servo.GetPeriodRatio():.4f} ms"),
-        ("T_max", f"{1e3 * servo.GetMaximumPeriod():.3f} ms"),
-        ("missed ticks", f"{servo.GetNumberOfMissedTicks()}"),
-        ("tick time, median", f"{1e6 * servo.GetTickTimeQuantile(0.5):.1f} us"),
-        ("tick time, p99.9", f"{1e6 * servo.GetTickTimeQuantile(0.999):.1f} us"),
+        ("rate", f"{readings.GetMeasuredRate():.1f} Hz"),
+        ("E[T^2]/E[T]", f"{1e3 * readings.GetPeriodRatio():.4f} ms"),
+        ("T_max", f"{1e3 * readings.GetMaximumPeriod():.3f} ms"),
+        ("missed ticks", f"{readings.GetNumberOfMissedTicks()}"),
+        ("tick time, median", f"{1e6 * readings.GetTickTimeQuantile(0.5):.1f} us"),
+        ("tick time, p99.9", f"{1e6 * readings.GetTickTimeQuantile(0.999):.1f} us"),
         ("largest force", f"{force.max():.2f} N"),
         ("stiffness", f"{scene.GetStiffness():.0f} N/m"),
     ]

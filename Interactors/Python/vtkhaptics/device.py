@@ -24,7 +24,7 @@ In a process of its own, which no other Python code holds up, over a file in mem
 :class:`SharedHand` needs NumPy alone: ``vtkhaptics/sharing.py`` can be copied to where VTK is not.
 
 How regular Python is depends on what else it does, see Devices/README.md for what was measured. It
-matters to how a surface feels, and never to safety: a position that comes late by more than Timeout
+matters to the forces, and never to safety: a position that comes late by more than Timeout
 (20 ms), that is not finite, or an exception here ends the servo's run with zero force at once.
 """
 

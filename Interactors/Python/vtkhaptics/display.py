@@ -8,7 +8,7 @@ from vtkmodules.vtkRenderingCore import vtkRenderWindow
 
 
 class DisplayError(Exception):
-    """Why nothing can be drawn and what to do, for people."""
+    """The message says why nothing can be drawn and what to do."""
 
 
 def needs_display():

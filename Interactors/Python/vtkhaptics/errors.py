@@ -9,8 +9,9 @@ called from Python (:func:`checked`) ends that call:
 - an exception in an observer, which VTK could only print, is raised once the call has done its work.
 
 An object on which the program observes `ErrorEvent` (or `WarningEvent`) itself raises (warns)
-nothing: the program has taken that over, as in VTK. What happens outside of such a call, in the
-event loop of a window for instance, VTK prints as ever.
+nothing: the program handles that, as in VTK. Nor is the same text raised where another object
+passes it on, as a scene does with what its servo reports. What happens outside of such a call, in
+the event loop of a window for instance, VTK prints as ever.
 """
 
 import functools
@@ -19,9 +20,9 @@ import threading
 import traceback
 import warnings
 
-from vtkmodules.util.misc import calldata_type
-from vtkmodules.util.vtkConstants import VTK_STRING
-from vtkmodules.vtkCommonCore import vtkCommand, vtkObject, vtkOutputWindow
+from vtkmodules.vtkCommonCore import vtkCommand
+
+from .vtkHapticsFilters import vtkReportCollector
 
 ERROR, WARNING = int(vtkCommand.ErrorEvent), int(vtkCommand.WarningEvent)
 
@@ -43,17 +44,9 @@ class HapticsWarning(UserWarning):
     """What a VTK object of the package reported as a warning."""
 
 
-class _Call:
-    """One call that is under way: what was reported, and what observers raised."""
-
-    __slots__ = ("errors", "warnings", "raised")
-
-    def __init__(self):
-        self.errors, self.warnings, self.raised = [], [], []
-
-
 class _Calls(threading.local):
-    """The calls that are under way in this thread, innermost last."""
+    """What observers raised, for each of the calls that are under way in this thread, innermost
+    last."""
 
     def __init__(self):
         self.stack = []
@@ -73,26 +66,14 @@ def text_of(report):
     return re.sub(r"^(ERROR|Warning|Generic Warning):.*?\(0x[0-9a-f]+\): ", "", " ".join(report.split()))
 
 
-@calldata_type(VTK_STRING)
-def _on_report(reporter, event, report):
-    is_error = event == "ErrorEvent"
-    if getattr(reporter, "_own_observers", {}).get(ERROR if is_error else WARNING):
-        return
-    if _calls.stack:
-        now = _calls.stack[-1]
-        (now.errors if is_error else now.warnings).append((reporter, text_of(report)))
-    elif is_error:
-        vtkOutputWindow.GetInstance().DisplayErrorText(report)
-    else:
-        vtkOutputWindow.GetInstance().DisplayWarningText(report)
-
-
 def watch(object_):
-    """Takes what an object reports, from now on; once."""
-    if not getattr(object_, "_watched", False):
-        for event in (ERROR, WARNING):
-            vtkObject.AddObserver(object_, event, _on_report)
-        object_._watched = True
+    """Takes what an object reports, from now on."""
+    vtkReportCollector.Watch(object_)
+
+
+def handle(object_, event, is_handled):
+    """Leaves an object's `ERROR` or `WARNING` to the program's own observers, or no longer."""
+    vtkReportCollector.SetHandled(object_, event, is_handled)
 
 
 def checked(method):
@@ -100,40 +81,54 @@ def checked(method):
 
     @functools.wraps(method)
     def call(self, *arguments):
-        watch(self)
-        now = _Call()
-        _calls.stack.append(now)
+        raised = []
+        _calls.stack.append(raised)
+        vtkReportCollector.Begin(self)
         try:
             result = method(self, *arguments)
         finally:
+            count = vtkReportCollector.End()
             _calls.stack.pop()
-        if now.warnings or now.errors or now.raised:
-            _pass_on(now, self)
+        if count or raised:
+            _pass_on(_reports(count, self), raised, self)
         return result
 
     return call
 
 
-def _pass_on(now, caller):
-    for reporter, text in now.warnings:
-        warnings.warn(f"{name_of(reporter)}: {text}", HapticsWarning, stacklevel=3)
+def _reports(count, caller):
+    """(is_error, reporter, text) of each report of the call that ended that nobody has handled."""
+    collector = vtkReportCollector
+    texts = [text_of(collector.GetText(i)) for i in range(count)]
+    handled = {(collector.IsError(i), texts[i]) for i in range(count) if collector.IsHandled(i)}
+    reports = [
+        (collector.IsError(i), collector.GetReporter(i) or caller, texts[i]) for i in range(count)
+    ]
+    return [report for report in reports if (report[0], report[2]) not in handled]
+
+
+def _pass_on(reports, raised, caller):
+    for is_error, reporter, text in reports:
+        if not is_error:
+            warnings.warn(f"{name_of(reporter)}: {text}", HapticsWarning, stacklevel=3)
     error = None
-    if now.errors:
+    errors = [(reporter, text) for is_error, reporter, text in reports if is_error]
+    if errors:
         # What the object that was called says comes first; each text once, as others pass it on.
         by_text = {}
-        for reporter, text in sorted(now.errors, key=lambda report: report[0] is not caller):
+        for reporter, text in sorted(errors, key=lambda report: report[0] is not caller):
             by_text.setdefault(text, (reporter, text))
-        reports = list(by_text.values())
-        lines = [f"{name_of(reporter)}: {text}" for reporter, text in reports]
-        error = HapticsError("\n".join(lines), *reports[0])
-    if now.raised:
-        first, *others = now.raised
+        errors = list(by_text.values())
+        lines = [f"{name_of(reporter)}: {text}" for reporter, text in errors]
+        error = HapticsError("\n".join(lines), *errors[0])
+    if raised:
+        first, *others = raised
         for other in others:
             _note(first, other)
         raise first from error
     if error:
         # A device in Python keeps what its program raised.
-        causes = (getattr(reporter, "failure", None) for reporter, _ in now.errors)
+        causes = (getattr(reporter, "failure", None) for reporter, _ in errors)
         raise error from next((cause for cause in causes if cause), None)
 
 
@@ -152,6 +147,6 @@ def guarded(observer):
         except BaseException as error:  # Ctrl-C too, for which VTK would end the process
             if not _calls.stack:
                 raise  # nobody to raise it to: VTK prints it
-            _calls.stack[-1].raised.append(error)
+            _calls.stack[-1].append(error)
 
     return notify

@@ -13,7 +13,7 @@ def lines(path, x_label, y_label, curves, names=()):
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
     except ImportError:
-        print("no plot: matplotlib is not installed (Debian: apt-get install python3-matplotlib)")
+        print("no plot: matplotlib is not installed (pip install matplotlib)")
         return
     figure = Figure(figsize=(7.0, 3.5), layout="constrained")
     axes = figure.add_subplot()

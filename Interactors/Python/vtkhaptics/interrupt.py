@@ -39,9 +39,11 @@ class Interrupts:
 
     def run(self, interactor, start=None):
         """Runs the event loop of an interactor until its window is closed."""
-        self._interactor, self._came = interactor, False
+        self._came = False
+        self._interactor = interactor
         try:
-            (start or interactor.Start)()
+            if not self._came:
+                (start or interactor.Start)()
         finally:
             self._interactor = None
         if self._came:
@@ -50,10 +52,9 @@ class Interrupts:
     def _on_signal(self, _signal, _frame):
         if self._interactor is None:
             raise KeyboardInterrupt
-        if not self._came:
-            self._came = True
-            if not self._interactor.GetDone():
-                self._interactor.ExitCallback()
+        self._came = True
+        if not self._interactor.GetDone():  # again too: the loop may have begun after the first
+            self._interactor.ExitCallback()
 
 
 def is_interactive():

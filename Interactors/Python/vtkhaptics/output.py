@@ -20,7 +20,7 @@ _LONGEST_BASE = 200  # with what is added a name may have 255 bytes
 
 
 class OutputError(OSError):
-    """What could not be written, where, and what to do; for people."""
+    """The message says what could not be written, where, and what to do."""
 
 
 def _failure(path, error):

@@ -7,11 +7,9 @@ import vtkmodules.vtkInteractionStyle  # noqa: F401  (registers the interactors)
 import vtkmodules.vtkRenderingFreeType  # noqa: F401  (registers the text renderer)
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  (registers the render window)
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkPolyDataNormals, vtkTubeFilter
 from vtkmodules.vtkImagingCore import vtkImageResize
-from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
 from vtkmodules.vtkRenderingCore import (
     vtkActor,
     vtkLight,
@@ -22,6 +20,7 @@ from vtkmodules.vtkRenderingCore import (
     vtkWindowToImageFilter,
 )
 
+from .coloring import force_colors, scalar_bar
 from .output import write_png
 from .surfaces import SurfaceError
 
@@ -159,7 +158,7 @@ class Picture:
         text.GetTextProperty().SetColor(*color)
         text.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
         text.SetPosition(0.02, height)
-        self.renderer.AddActor2D(text)
+        self.renderer.AddViewProp(text)
 
     def add_stroke(self, stroke, radius, strongest):
         """Draws lines as tubes of a radius [world unit], coloured by ForceMagnitude, 0 to the
@@ -169,7 +168,7 @@ class Picture:
         tubes.SetRadius(radius)
         tubes.SetNumberOfSides(8)
         tubes.CappingOn()
-        colors = _force_colors(strongest)
+        colors = force_colors(strongest)
         mapper = vtkPolyDataMapper()
         mapper.SetInputConnection(tubes.GetOutputPort())
         mapper.SelectColorArray("ForceMagnitude")
@@ -182,26 +181,7 @@ class Picture:
         actor.GetProperty().SetAmbient(0.35)
         actor.GetProperty().SetDiffuse(0.75)
         self.renderer.AddActor(actor)
-        self._add_legend(colors)
-
-    def _add_legend(self, colors):
-        bar = vtkScalarBarActor()
-        bar.SetLookupTable(colors)
-        bar.SetTitle("force [N]")
-        bar.SetNumberOfLabels(4)
-        bar.SetLabelFormat("%.1f")
-        bar.UnconstrainedFontSizeOn()
-        bar.SetMaximumWidthInPixels(70)
-        bar.SetMaximumHeightInPixels(260)
-        bar.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
-        bar.SetPosition(0.925, 0.05)
-        for text in (bar.GetTitleTextProperty(), bar.GetLabelTextProperty()):
-            text.SetColor(0.18, 0.21, 0.27)
-            text.SetFontSize(15)
-            text.ItalicOff()
-            text.BoldOff()
-            text.ShadowOff()
-        self.renderer.AddActor2D(bar)
+        self.renderer.AddViewProp(scalar_bar(colors, "force [N]"))
 
     def world_size(self, share_of_height):
         """A length [world unit] that is a share of the picture's height, at the focal point."""
@@ -212,21 +192,6 @@ class Picture:
     def save(self, path, inputs=(), scale=2):
         """Writes a PNG, as save_window() does."""
         save_window(self.window, path, scale, inputs)
-
-
-def _force_colors(strongest):
-    """From pale gold for a light touch to deep crimson for a hard one."""
-    stops = ((0.0, (1.0, 0.93, 0.60)), (0.45, (1.0, 0.60, 0.18)), (1.0, (0.72, 0.05, 0.15)))
-    table = vtkLookupTable()
-    table.SetNumberOfTableValues(256)
-    table.SetTableRange(0.0, max(strongest, 1e-12))
-    table.Build()
-    for i in range(256):
-        x = i / 255.0
-        (x0, low), (x1, high) = (stops[0], stops[1]) if x < stops[1][0] else (stops[1], stops[2])
-        f = (x - x0) / (x1 - x0)
-        table.SetTableValue(i, *((1.0 - f) * a + f * b for a, b in zip(low, high)), 1.0)
-    return table
 
 
 def stroke_lines(trace, step):

@@ -1,4 +1,4 @@
-"""Lets people touch what a plot shows: ``enable(plotter)`` for PyVista, or for plain VTK."""
+"""Makes what a plot shows touchable: ``enable(plotter)`` for PyVista, or for plain VTK."""
 
 from vtkmodules.vtkCommonDataModel import vtkPlaneCollection
 from vtkmodules.vtkFiltersGeometry import vtkCompositeDataGeometryFilter, vtkDataSetSurfaceFilter
@@ -45,8 +45,8 @@ class Touch:
     def _name(self, id_, prop):
         name = _name_of(prop, self._renderer)
         # Parts of an assembly have ids of their own.
-        if name and prop.IsA("vtkActor") and name != self.scene.GetSurfaceName(id_):
-            self.scene.SetSurfaceName(id_, name)
+        if name and prop.IsA("vtkActor") and name != self.scene.GetSurfaces().GetName(id_):
+            self.scene.GetSurfaces().SetName(id_, name)
 
     def follow(self):
         """Takes in what the plot shows now, and only that: each picture calls it."""

@@ -12,7 +12,7 @@ from .surfaces import run_reader
 
 
 class RecordingError(Exception):
-    """What is wrong with a recording and what to do, for people."""
+    """The message says what is wrong with a recording and what to do."""
 
 
 def read_recording(path):

@@ -35,7 +35,7 @@ class SharedHand:
         self._renewed = time.monotonic()
 
     def exchange(self, position: Any, buttons: int = 0) -> np.ndarray:
-        """Tells where the hand is [m], device frame, and the buttons that it holds (bit i is button
+        """Reports the position of the hand [m], device frame, and the buttons that it holds (bit i is button
         i); returns the force to give it [N], a new (3,) array. Zero where no servo renews it."""
         values = self.values
         sequence = values[HAND_SEQUENCE]
@@ -49,7 +49,7 @@ class SharedHand:
         return self.force()
 
     def lose(self) -> None:
-        """Tells that the device is lost: the servo ends with zero force at its next tick."""
+        """Reports that the device is lost: the servo ends with zero force at its next tick."""
         self.values[HAND_LOST] = 1
 
     def force(self) -> np.ndarray:

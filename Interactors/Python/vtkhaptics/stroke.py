@@ -138,7 +138,7 @@ def _lowest_nearby(values, width):
 
 
 class StrokeError(Exception):
-    """Why no stroke could be planned, for people."""
+    """The message says why no stroke could be planned."""
 
 
 class Plan:

@@ -46,7 +46,7 @@ APPENDED_DATA_HINT = (
 
 
 class SurfaceError(Exception):
-    """What is wrong with a file, where, and what to do; for people."""
+    """The message says what is wrong with a file, where, and what to do."""
 
 
 LARGEST_SHARE = 0.5  # of the memory: what triangles and engine of a file may take
@@ -60,7 +60,7 @@ HARMLESS = "Error reading InformationKey element"
 
 
 def run_reader(reader, progress=None):
-    """Updates the reader and returns what it complained of, most telling first."""
+    """Updates the reader and returns its complaints, the most specific one first."""
     errors, warnings, failures = [], [], []
 
     def listener(messages):
@@ -133,7 +133,7 @@ def _refuse_enormous(path):
     try:
         memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
     except (AttributeError, ValueError):
-        return  # a system that does not tell
+        return  # a system that does not report it
     size = os.path.getsize(path)
     with open(path, "rb") as file:
         share = STL_TEXT_SHARE if _is_stl_text(file.read(1024)) else 1.0
@@ -161,7 +161,7 @@ def _stl_as_read(path):
     size = os.path.getsize(path)
     with open(path, "rb") as file:
         start = file.read(1024)
-    text = bytes([*range(0x20, 0x80), *b"\t\n\r"])  # as VTK tells them apart, in the first 256 bytes
+    text = bytes([*range(0x20, 0x80), *b"\t\n\r"])  # as VTK distinguishes them, in the first 256 bytes
     others = len(start[:256].translate(None, delete=text))
     if len(start) < 84 or others < 0.05 * len(start[:256]):
         yield path
@@ -169,17 +169,17 @@ def _stl_as_read(path):
     if _is_stl_text(start):
         head, skipped, end = b"solid\n", start.index(b"\n") + 1, size
     else:
-        told, held = int.from_bytes(start[80:84], "little"), (size - 84) // 50
-        if told > held:
+        stated, held = int.from_bytes(start[80:84], "little"), (size - 84) // 50
+        if stated > held:
             raise SurfaceError(
-                f"{path}: says that it holds {told:,} triangles, but its {size:,} bytes are those "
+                f"{path}: says that it holds {stated:,} triangles, but its {size:,} bytes are those "
                 f"of {held:,}. It was cut short, or is no STL: get or save it again."
             )
         # Some programs write 0, or too few, and then more triangles; others write something after
         # the triangles, which is seldom as long as some of them.
-        count = held if told == 0 or (size - 84) % 50 == 0 else told
+        count = held if stated == 0 or (size - 84) % 50 == 0 else stated
         head, skipped, end = start[:80] + count.to_bytes(4, "little"), 84, 84 + 50 * count
-        if count == told and end == size:
+        if count == stated and end == size:
             yield path
             return
     with tempfile.NamedTemporaryFile(suffix=os.path.splitext(path)[1]) as copy:
@@ -193,7 +193,7 @@ def _stl_as_read(path):
 
 
 def value_arrays(surface):
-    """Names of the point and cell arrays that tell values: numbers, but no normals, texture
+    """Names of the point and cell arrays that hold values: numbers, but no normals, texture
     coordinates or ids of VTK's own."""
     names = []
     for data in (surface.GetPointData(), surface.GetCellData()):
@@ -309,14 +309,20 @@ def read_surface(path, progress=None, contour=None):
     """The surface in a file of one of FORMATS, gzipped or not, or in a folder with the slices of a
     DICOM image, as vtkPolyData in the file's own length unit.
 
-    Of what is no surface it is the outside, or where its values are `contour`. `progress` is called
+    Of data that are no surface it is the outside, or where its values are `contour`. `progress` is called
     with 0 to 1 while the file is read.
 
     Raises SurfaceError where the file is missing, unreadable, damaged, of another format, or holds
     no polygons or strips.
     """
-    if not os.path.exists(path):
-        raise SurfaceError(f"{path}: there is no such file. Check the path.")
+    try:
+        os.stat(path)
+    except PermissionError:
+        raise SurfaceError(
+            f"{path}: a folder on the way to it may not be entered. Check the permissions of the folders."
+        ) from None
+    except (OSError, ValueError):
+        raise SurfaceError(f"{path}: there is no such file. Check the path.") from None
     if not os.access(path, os.R_OK):
         raise SurfaceError(f"{path}: may not be read. Check the file's permissions.")
     if not os.path.isfile(path) and not os.path.isdir(path):

@@ -40,7 +40,7 @@ def touch(
     Returns
     -------
     Trace
-        What was felt.
+        The trace.
 
     Raises what :func:`vtkhaptics.polydata` and :func:`vtkhaptics.enable` do, ValueError for a surface
     without polygons, and HapticsError where there is no display. For files alone ``python3 -m vtkhaptics FILE`` does more.
@@ -73,7 +73,7 @@ def touch(
         renderer.AddActor(actor)
         name, table = (None, None) if scalars == "none" else color_by(actor, surface, scalars)
         if table and surface is shown[0]:
-            renderer.AddActor2D(scalar_bar(table, name, size))
+            renderer.AddViewProp(scalar_bar(table, name, size))
     points = np.concatenate([vtk_to_numpy(surface.GetPoints().GetData()) for surface in shown])
     fill_view(
         renderer.GetActiveCamera(), points, (0.45, -0.75, 0.5), (0.0, 0.0, 1.0),
@@ -90,7 +90,7 @@ def touch(
     hand = enable(interactor, device, stiffness)
     for given, actor in zip(surfaces, actors):
         if isinstance(given, (str, os.PathLike)):
-            hand.scene.SetSurfaceName(hand.add(actor), os.path.basename(os.fspath(given)))
+            hand.scene.GetSurfaces().SetName(hand.add(actor), os.path.basename(os.fspath(given)))
     hand.scene.StartRecording()
     interactor.Start()
     hand.scene.StopRecording()

@@ -33,8 +33,10 @@ def trace(
     scale: Optional[float] = None,
     period: float = 0.001,
     side: str = "automatic",
+    substeps: int = 1,
+    tip_radius: float = 0.0,
 ) -> "Trace":
-    """What a hand would feel that follows a path over a surface, without a device.
+    """The forces on a hand that follows a path over a surface, without a device.
 
     Parameters
     ----------
@@ -62,6 +64,13 @@ def trace(
         From one position to the next [s].
     side : "automatic", "front" or "both"
         Which side of the surface can be touched; automatic is the front of closed surfaces.
+    substeps : int
+        In how many substeps a tick may follow the straight way from one position to the next, 1 to 16,
+        on rough ground and in folds, where the trace else depends on how densely the path is sampled:
+        1 is off, 4 are enough nearly everywhere.
+    tip_radius : float
+        Of the ball about each position that touches, in the device's frame [m]: it rounds edges and
+        comes into no gap narrower than itself; ``.god_object`` is its centre. 0: a point.
 
     Returns
     -------
@@ -69,17 +78,19 @@ def trace(
         One row for each position: ``.force`` (n, 3) [N], ``.god_object`` (n, 3), ...
 
     Raises ValueError and TypeError for arguments that are none of these, and HapticsError for a
-    surface that cannot be touched. An empty one, as of a contour that has vanished, can: nothing is
-    felt.
+    surface that cannot be touched. An empty one, as of a contour that has vanished, can: nothing
+    holds.
 
     >>> t = vtkhaptics.trace((vertices, faces), path)
     >>> t.force                             # (n, 3) [N]
     """
     if side not in SIDES:
         raise ValueError(f"side is {side!r}; give one of {', '.join(map(repr, SIDES))}.")
-    for name, value in (("stiffness", stiffness), ("maximum_force", maximum_force)):
+    for name, value in (("stiffness", stiffness), ("maximum_force", maximum_force), ("tip_radius", tip_radius)):
         if not (np.isfinite(value) and value >= 0.0):
             raise ValueError(f"{name} is {value}; it must be finite and not below 0.")
+    if not (1 <= substeps <= 16 and int(substeps) == substeps):
+        raise ValueError(f"substeps is {substeps}; it must be a whole number from 1 to 16.")
     unit_length = 0.0 if unit is None else metres(unit)
     for name, value in (("scale", 1.0 if scale is None else scale), ("period", period)):
         if not (np.isfinite(value) and value > 0.0):
@@ -98,14 +109,16 @@ def trace(
     # Given where it is the default too: then the filter does not warn in words of its own.
     filter_.SetWorldToDeviceScale(scale or unit_length or 1.0)
     filter_.SetTickPeriod(period)
+    filter_.SetSubstepLimit(int(substeps))
+    filter_.SetTipRadius(tip_radius)
     filter_.SetSide(SIDES[side])
     filter_.Update()
     if scale is None:
         _warn_of_size(filter_.GetInputDataObject(1, 0), unit_length)
-    felt = Trace(filter_.GetOutput(), period)
+    trace = Trace(filter_.GetOutput(), period)
     if isinstance(surface, (str, os.PathLike)):
-        felt._inputs = [os.fspath(surface)]
-    return felt
+        trace._inputs = [os.fspath(surface)]
+    return trace
 
 
 def _warn_of_size(surface, unit_length):
@@ -116,7 +129,7 @@ def _warn_of_size(surface, unit_length):
     in_hand = size * (unit_length or 1.0)
     if SMALLEST <= in_hand <= LARGEST or size == 0.0:
         return
-    remedy = f"scale={0.1 / size:.3g} to feel it 0.1 m across, scale={unit_length or 1.0:.3g} if it is so"
+    remedy = f"scale={0.1 / size:.3g} to have it 0.1 m across, scale={unit_length or 1.0:.3g} if it is so"
     warnings.warn(
         f"the surface is {size:.4g} units across, {in_hand:.4g} m in the hand"
         + (". " if unit_length else " as no unit is given. Give unit='mm' for millimetres, or ")
@@ -153,7 +166,7 @@ def path_data(path, time=None):
 
 
 class Trace:
-    """What was felt, one row a tick, as NumPy arrays over VTK's memory: no copies.
+    """A trace, one row a tick, as NumPy arrays over VTK's memory: no copies.
 
     Of a polydata as vtkGodObjectTrace and ``vtkHapticScene.GetTrace()`` make it, which `polydata`
     is: ``vtkhaptics.Trace(scene.GetTrace())``. An array that has no attribute here is found by its
@@ -264,8 +277,8 @@ class Trace:
             import pandas
         except ImportError as error:
             raise ImportError(
-                "to_dataframe() needs pandas (Debian: apt-get install python3-pandas). to_csv() and "
-                "columns() need nothing."
+                "to_dataframe() needs pandas (pip install pandas; Debian: apt-get install "
+                "python3-pandas). to_csv() and columns() need nothing."
             ) from error
         return pandas.DataFrame(self.columns())
 

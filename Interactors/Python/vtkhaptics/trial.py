@@ -2,6 +2,7 @@
 
 import os
 import signal
+import warnings
 
 
 class Crashed(Exception):
@@ -15,7 +16,11 @@ def try_apart(action):
     nothing where the system cannot fork."""
     if not hasattr(os, "fork"):
         return
-    child = os.fork()
+    with warnings.catch_warnings():
+        # From Python 3.12 on it warns where there are threads, as VTK's own: the child only reads a file, and
+        # waits for none of them.
+        warnings.simplefilter("ignore", DeprecationWarning)
+        child = os.fork()
     if child == 0:
         try:
             # What it has to say the parent says, when it does the same.

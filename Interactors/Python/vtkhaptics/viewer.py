@@ -56,7 +56,7 @@ BUILD_FRAME = 0.05  # [s] between two looks at how far the surfaces are
 
 
 class ViewerError(Exception):
-    """What went wrong and what to do, for people."""
+    """The message says what went wrong and what to do."""
 
 
 class Viewer:
@@ -72,6 +72,8 @@ class Viewer:
         add_lights(self.renderer)
         self.scene = vtkHapticScene()
         self.scene.SetStiffness(options.stiffness)
+        self.scene.GetServo().SetSubstepLimit(options.substeps)
+        self.scene.SetTipRadius(options.tip_radius)
         self.surfaces = []
         self.detail = DetailSwitch(self.renderer)
 
@@ -89,7 +91,7 @@ class Viewer:
             print(unit_note(path, surface, self.options.unit), flush=True)
         units = {self.options.unit or file_unit(path) for path in self.options.surfaces}
         if units != {None} and len(units) == 1:  # files of several units are shown as they are
-            self.scene.SetUnitLength(METRES[units.pop()])
+            self.scene.GetWorkspace().SetUnitLength(METRES[units.pop()])
 
     def _touch(self, surface, shown, name):
         """Adds a surface to the scene, under an actor that `shown` follows: what is shown has its
@@ -100,7 +102,7 @@ class Viewer:
         touched.SetMapper(mapper)
         shown.SetUserMatrix(touched.GetMatrix())
         id_ = self.scene.AddSurface(touched)
-        self.scene.SetSurfaceName(id_, name)
+        self.scene.GetSurfaces().SetName(id_, name)
         getattr(self.scene.GetSurfaceFilter(id_), SET_SIDE[self.options.side])()
         material = self.scene.GetSurfaceProperties(id_)
         material.SetStaticFriction(self.options.friction)
@@ -143,7 +145,7 @@ class Viewer:
         if not table:
             return  # colours already
         if not wanted or not self.surfaces:
-            self.renderer.AddActor2D(scalar_bar(table, name, self.options.size))
+            self.renderer.AddViewProp(scalar_bar(table, name, self.options.size))
         others = other_arrays(surface, name)
         if others and not wanted:
             print(f"coloured by {name}; --scalars for {', '.join(others)}", flush=True)
@@ -186,24 +188,24 @@ class Viewer:
         self.detail.set_live(not self.options.offscreen)
 
     def build(self):
-        """Makes the surfaces touchable, on a thread beside; the camera can be moved meanwhile.
+        """Makes the surfaces touchable, in the background; the camera can be moved meanwhile.
 
         False where the window was closed before they were. Raises SurfaceError.
         """
-        closed, told = [], []
+        closed, errors = [], []
         observers = [
             (self.interactor, self.interactor.AddObserver("ExitEvent", lambda *_: closed.append(1))),
             (self.scene, self.scene.AddObserver(
-                self.scene.SurfaceErrorEvent, lambda *_: told.append(self.scene.GetErrorMessage()))),
+                self.scene.SurfaceErrorEvent, lambda *_: errors.append(self.scene.GetErrorMessage()))),
             # Observed, so that VTK does not print it as well.
             (self.scene, self.scene.AddObserver("ErrorEvent", lambda *_: None)),
         ]
-        self.scene.BackgroundBuildingOn()
+        self.scene.GetSurfaces().BackgroundBuildingOn()
         self._update()
         with ProgressBar("building") as bar, self._build_label() as label:
-            while self.scene.IsBuilding() and not closed:
-                bar.show(self.scene.GetBuildProgress())
-                label(self.scene.GetBuildProgress())
+            while self.scene.GetSurfaces().IsBuilding() and not closed:
+                bar.show(self.scene.GetSurfaces().GetBuildProgress())
+                label(self.scene.GetSurfaces().GetBuildProgress())
                 self._refine()
                 if not self.options.offscreen:
                     self.interactor.ProcessEvents()
@@ -212,13 +214,13 @@ class Viewer:
         for caller, observer in observers:
             caller.RemoveObserver(observer)
         if closed:
-            self.scene.CancelBuild()
+            self.scene.GetSurfaces().CancelBuild()
             return False
         for number, path in enumerate(self.options.surfaces):
-            id_ = self.scene.GetSurfaceId(number)
-            if not self.scene.IsSurfaceTouchable(id_):
-                mine = [text for text in told if text.startswith(f"Surface {id_} (")]
-                raise SurfaceError(f"{path}: {(mine or told or ['cannot be touched.'])[0]}")
+            id_ = self.scene.GetSurfaces().GetId(number)
+            if not self.scene.GetSurfaces().IsTouchable(id_):
+                mine = [text for text in errors if text.startswith(f"Surface {id_} (")]
+                raise SurfaceError(f"{path}: {(mine or errors or ['cannot be touched.'])[0]}")
         self.interactor.SetInteractorStyle(self.style)
         return True
 
@@ -229,7 +231,7 @@ class Viewer:
 
     @contextlib.contextmanager
     def _build_label(self):
-        """Tells in the window how far the surfaces are, where that takes long enough to be read."""
+        """Shows in the window the progress of the builds, where they take long enough to read it."""
         overlay = self.style.GetView().GetOverlay()
         began = time.monotonic()
 

@@ -1,4 +1,4 @@
-"""Surfaces of what is no surface: outsides of meshes and contours of images."""
+"""Surfaces of volumes: outsides of meshes and contours of images."""
 
 import os
 
@@ -70,7 +70,10 @@ def surface_of(data, contour=None):
     Raises NoSurfaceError where there is no data set in it, or it has no values to contour."""
     parts = leaves(data)
     if not parts:
-        raise NoSurfaceError(f"it holds no data set with cells, but a {data.GetClassName()}.")
+        raise NoSurfaceError(
+            f"it holds a {data.GetClassName()}, which has no surface. Give a file of a mesh, of an image, "
+            "or of several in blocks."
+        )
     if contour is not None:
         parts = [_contour(part, contour) for part in parts]
     elif len(parts) == 1 and isinstance(parts[0], vtkPolyData):

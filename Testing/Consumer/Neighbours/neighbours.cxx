@@ -1,4 +1,4 @@
-// A program whose own headers are called as some of ours, beside all of ours.
+// A program whose own headers are called as some of ours, with all of ours.
 #include "Material.h"
 #include "Vec3.h"
 #include "all_headers.h"

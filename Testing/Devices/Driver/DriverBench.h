@@ -1,28 +1,17 @@
 #ifndef Haptics_DriverBench_h
 #define Haptics_DriverBench_h
 
+#include "WaitFor.h"
 #include "vtkDriverHapticDevice.h"
 #include "vtkSmartPointer.h"
 
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <memory>
 #include <string>
-#include <thread>
 
-/// Waits for a condition, 10 s at most; whether it came true.
-inline bool WaitFor(const std::function<bool()>& condition)
-{
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
-  while (!condition() && std::chrono::steady_clock::now() < end)
-  {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return condition();
-}
-
+/// Opens a device, and waits until it is open; false where it is not.
 inline bool WaitUntilOpen(vtkDriverHapticDevice* device)
 {
   device->Open();

@@ -1,5 +1,6 @@
 // What every device that a thread drives has to keep, whatever its hardware: the force that it got
 // last, read at the hardware's end.
+#include "DefaultSignals.h"
 #include "DriverBench.h"
 #include "ServoTestTools.h"
 #include "haptics/Devices/DeviceChannel.h"
@@ -60,16 +61,29 @@ protected:
     this->Device = this->Bench->MakeDevice();
     ASSERT_TRUE(WaitUntilOpen(this->Device)) << this->Device->GetErrorMessage();
   }
-  /// A servo that presses 3 mm into a plane.
+  /// A servo that presses 3 mm into a plane. Hardware that a busy machine leaves silent for 0.2 s
+  /// is lost, as it has to be: then once more.
   void Press()
   {
-    this->Open();
-    SetUpServo(this->Servo, this->Device);
-    ASSERT_TRUE(this->Servo->Start());
-    ASSERT_TRUE(WaitFor([this] { return this->Servo->GetNumberOfTicks() > 20; }));
-    this->Bench->MoveTo(Within);
-    ASSERT_TRUE(WaitFor([this] { return this->Bench->GetForce()[2] > 0.2; }))
-      << this->Device->GetErrorMessage();
+    bool isPressing = false;
+    for (int attempt = 0; attempt < 5 && !isPressing; ++attempt)
+    {
+      this->Open();
+      SetUpServo(this->Servo, this->Device);
+      ASSERT_TRUE(this->Servo->Start());
+      const auto wait = [this](const auto& condition)
+      { return WaitFor([&] { return condition() || !this->Servo->IsRunning(); }); };
+      ASSERT_TRUE(wait([this] { return this->Servo->GetNumberOfTicks() > 20; }));
+      this->Bench->MoveTo(Within);
+      ASSERT_TRUE(wait(
+        [&]
+        {
+          isPressing = this->Bench->GetForce()[2] > 0.2;
+          return isPressing;
+        }))
+        << this->Device->GetErrorMessage();
+    }
+    ASSERT_TRUE(isPressing) << this->Device->GetErrorMessage();
   }
   bool BecomesZero() const
   {
@@ -114,7 +128,7 @@ TEST_P(DriverSafety, TheForceGoesWhereTheServoAsksAndThePositionComesBack)
     }));
   EXPECT_GT(this->Device->GetNumberOfExchanges(), 20);
   this->Servo->Stop();
-  EXPECT_EQ(this->Bench->GetForce(), Vec{}) << "after the run";
+  EXPECT_TRUE(this->BecomesZero()) << "after the run";
 }
 
 TEST_P(DriverSafety, EachAxisIsItsOwn)
@@ -178,10 +192,15 @@ TEST_P(DriverSafety, AServoThatFallsSilentLosesItsForceAfterTwentyMilliseconds)
       return this->Bench->GetForce()[2] > 0.9;
     }));
   EXPECT_TRUE(this->BecomesZero());
-  EXPECT_GE(this->Device->GetNumberOfLateCommands(), 1);
-  haptics::DeviceSample before;
-  EXPECT_TRUE(this->Channel->Read(this->Time, before));
-  EXPECT_GE(before.Releases, 1u) << "so that the next force grows softly";
+  // It takes the force away first.
+  EXPECT_TRUE(WaitFor([this] { return this->Device->GetNumberOfLateCommands() >= 1; }));
+  EXPECT_TRUE(WaitFor(
+    [this]
+    {
+      haptics::DeviceSample sample;
+      return this->Channel->Read(this->Time, sample) && sample.Releases >= 1;
+    }))
+    << "so that the next force grows softly";
 }
 
 TEST_P(DriverSafety, AForceAboveTheLimitKeepsItsDirection)
@@ -301,9 +320,10 @@ struct Stage
   std::atomic<bool> Pressed{ false };
 };
 
-/// Presses in a child, which then runs `end`; how it ended. The hardware is without force then.
+/// Presses in a child, which then runs `end`; how it ended: by NeverPressed where the machine is
+/// too busy to press. The hardware is without force then.
 template <typename Function>
-int EndWhilePressing(const Kind& kind, Function end)
+int TryToEndWhilePressing(const Kind& kind, Function end)
 {
   void* memory =
     mmap(nullptr, sizeof(Stage), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
@@ -336,15 +356,31 @@ int EndWhilePressing(const Kind& kind, Function end)
   }
   bench->MoveTo(Above);
   bench->Begin();
-  EXPECT_TRUE(WaitFor([stage] { return stage->Ready.load(); }));
+  bool isPressed = WaitFor([stage] { return stage->Ready.load(); });
   bench->MoveTo(Within);
-  EXPECT_TRUE(WaitFor([&bench] { return bench->GetForce()[2] > 0.2; }));
-  stage->Pressed = true;
+  isPressed = isPressed && WaitFor([&bench] { return bench->GetForce()[2] > 0.2; });
+  stage->Pressed = isPressed; // where not, the child gives up
   int status = 0;
   waitpid(child, &status, 0);
   EXPECT_TRUE(WaitFor([&bench] { return bench->GetForce() == Vec{}; }))
     << "the last force that the device got: " << bench->GetForce()[2] << " N";
   munmap(memory, sizeof(Stage));
+  return status;
+}
+
+/// The same, and once more where the machine was too busy for a device to stay open.
+template <typename Function>
+int EndWhilePressing(const Kind& kind, Function end)
+{
+  int status = 0;
+  for (int attempt = 0; attempt < 5; ++attempt)
+  {
+    status = TryToEndWhilePressing(kind, end);
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != NeverPressed)
+    {
+      break;
+    }
+  }
   return status;
 }
 

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -109,6 +110,18 @@ protected:
     return this->RunUntil(vtkHapticDevice::Ready) ? testing::AssertionSuccess()
                                                   : testing::AssertionFailure()
         << this->Device->GetStateAsString() << ": " << this->Device->GetStatusMessage();
+  }
+
+  /// The fault that the device ended with says `words`; after `remedy`, which they name, it opens
+  /// and says nothing more.
+  void ExpectRemedy(const std::string& words, const std::function<void()>& remedy)
+  {
+    ASSERT_TRUE(this->RunUntil(vtkHapticDevice::Faulted, { 0.0, 0.0, 1.0 })) << words;
+    const std::string said = this->Device->GetErrorMessage();
+    EXPECT_NE(said.find(words), std::string::npos) << '"' << words << "\" is not in: " << said;
+    remedy();
+    EXPECT_TRUE(this->BecomesReady()) << words;
+    EXPECT_STREQ(this->Device->GetErrorMessage(), "") << words;
   }
 
   /// What the device with a port number got.

@@ -160,7 +160,7 @@ class FalconUploadFailure
 {
 };
 
-TEST_P(FalconUploadFailure, IsToldToTheUser)
+TEST_P(FalconUploadFailure, IsReportedToTheUser)
 {
   const FirmwareFile file(500);
   this->Bus.Plug(1, WithoutFirmware(file, this->GetParam().Script));
@@ -297,6 +297,65 @@ TEST_F(FalconBringUp, SaysThatAnotherProgramHoldsIt)
   ASSERT_TRUE(this->RunUntil(vtkHapticDevice::Faulted));
   EXPECT_TRUE(Contains(this->Device->GetErrorMessage(), "is in use by another program"))
     << this->Device->GetErrorMessage();
+}
+
+TEST_F(FalconBringUp, WhatMessagesAdviseEndsTheFault)
+{
+  const FirmwareFile file(500);
+  const auto plug = [&](std::vector<Act> script = {})
+  {
+    this->Device->Close();
+    this->Bus.Unplug(1);
+    this->Bus.Plug(1, WithoutFirmware(file, std::move(script)));
+  };
+  const auto open = [&](const Text& firmware)
+  {
+    this->Device->SetFirmwareFile(firmware.c_str());
+    this->Device->Open();
+  };
+  const auto give = [&] { this->Device->SetFirmwareFile(file.Path.c_str()); };
+  this->Device->Open();
+  this->ExpectRemedy("Connect its USB cable and its power supply, and open it again",
+    [&] { this->Bus.Plug(1, FalconModel()); });
+  this->Device->Close();
+  this->Device->SetDeviceIndex(3);
+  this->Device->Open();
+  this->ExpectRemedy("plugged in, counted from 0. Set another DeviceIndex",
+    [&] { this->Device->SetDeviceIndex(0); });
+
+  plug();
+  open("");
+  this->ExpectRemedy(
+    "Set FirmwareFile to the image that came with the device, then open it again", give);
+  for (const char* wrong : { "/nowhere/falcon.bin", "/dev/zero" })
+  {
+    plug();
+    open(wrong);
+    this->ExpectRemedy("Set FirmwareFile to the image that came with the device.", give);
+  }
+  plug({ { At::Upload, 0, Do::Silence, Always } });
+  open(file.Path);
+  this->ExpectRemedy(
+    "Unplug it and its power supply, connect both again, and open it again", [&] { plug(); });
+  plug({ { At::Upload, 3, Do::Garble, Always } });
+  open(file.Path);
+  this->ExpectRemedy("Check the cable, leave out hubs, and open it again", [&] { plug(); });
+
+  this->Device->Close();
+  this->Bus.ClaimByOther(true);
+  this->Device->Open();
+  this->ExpectRemedy("is in use by another program or another device object. Close it there",
+    [&] { this->Bus.ClaimByOther(false); });
+  this->Device->Close();
+  this->Bus.DenyOpening(true);
+  this->Device->Open();
+  this->ExpectRemedy("Put this line into /etc/udev/rules.d/60-novint-falcon.rules, run `udevadm "
+                     "control --reload` as root and plug the device in again",
+    [&]
+    {
+      this->Bus.DenyOpening(false); // as the rule does
+      plug();
+    });
 }
 
 TEST_F(FalconBringUp, KeepsTwoDevicesApart)

@@ -1,9 +1,11 @@
 // A child process presses on a plane with a Falcon on a USB bus of its own and ends in one of many
 // ways; the last packet that the Falcon got is in memory shared with this process.
+#include "DefaultSignals.h"
+#include "FalconEncoders.h"
 #include "ServoTestTools.h"
 #include "UsbFs.h"
+#include "WaitFor.h"
 #include "haptics/Devices/EndingSignals.h"
-#include "haptics/Devices/Falcon/FalconKinematics.h"
 #include "haptics/Devices/Falcon/FalconPacket.h"
 #include "vtkFalconHapticDevice.h"
 #include "vtkHapticSafety.h"
@@ -54,18 +56,6 @@ struct Received
   std::atomic<bool> HasPushed{ false };
 };
 
-std::array<std::int16_t, 3> EncodersAt(double height)
-{
-  haptics::FalconKinematics::Vector angles{};
-  haptics::FalconKinematics::Inverse({ 0.0, 0.0, height }, angles);
-  std::array<std::int16_t, 3> counts{};
-  for (std::size_t leg = 0; leg < counts.size(); ++leg)
-  {
-    counts[leg] = haptics::FalconKinematics::CountOfAngle(angles[leg]);
-  }
-  return counts;
-}
-
 void TakeEndingSignals()
 {
   sigset_t none;
@@ -73,21 +63,11 @@ void TakeEndingSignals()
   pthread_sigmask(SIG_SETMASK, &none, nullptr);
 }
 
-bool WaitFor(const std::function<bool()>& condition)
-{
-  const auto end = FalconModel::Clock::now() + std::chrono::seconds(10);
-  while (!condition() && FalconModel::Clock::now() < end)
-  {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return condition();
-}
-
 /// Presses 2 mm into a plane; nothing is ever destroyed.
 bool Press(UsbFs& bus, Received& received, const char* guardian)
 {
   FalconModel model;
-  model.Encoders = EncodersAt(0.131);
+  model.Encoders = EncodersAt({ 0.0, 0.0, 0.131 });
   model.OnCommand = [&received](const haptics::FalconCommand& command)
   {
     received.Pushes = command.Torques != std::array<std::int16_t, 3>{};
@@ -113,7 +93,7 @@ bool Press(UsbFs& bus, Received& received, const char* guardian)
   {
     return false;
   }
-  bus.With(1, [](FalconModel& pressed) { pressed.Encoders = EncodersAt(0.128); });
+  bus.With(1, [](FalconModel& pressed) { pressed.Encoders = EncodersAt({ 0.0, 0.0, 0.128 }); });
   return WaitFor([&received] { return received.Pushes.load(); });
 }
 
@@ -338,7 +318,10 @@ TEST_F(FalconGuarded, TheGuardianLeavesTheFalconAloneWhereTheProcessTookTheForce
         }
         if (signal == SIGKILL) // after the hand has gone from the plane
         {
-          bus.With(1, [](FalconModel& pressed) { pressed.Encoders = EncodersAt(0.135); });
+          bus.With(1,
+            [](FalconModel& pressed) {
+              pressed.Encoders = EncodersAt({ 0.0, 0.0, 0.135 });
+            });
           std::this_thread::sleep_for(std::chrono::milliseconds(100));
         }
         if (write(ends[1], &guardian, sizeof(guardian)) == sizeof(guardian))

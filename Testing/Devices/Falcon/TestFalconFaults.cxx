@@ -1,6 +1,5 @@
 #include "FalconBench.h"
-
-#include "haptics/Devices/Falcon/FalconKinematics.h"
+#include "FalconEncoders.h"
 
 #include <algorithm>
 #include <atomic>
@@ -43,7 +42,7 @@ class FalconFault
 {
 };
 
-TEST_P(FalconFault, EndsWithoutForceAndIsToldToTheUser)
+TEST_P(FalconFault, EndsWithoutForceAndIsReportedToTheUser)
 {
   this->Bus.Plug(1, FalconModel());
   ASSERT_TRUE(this->BecomesReady());
@@ -79,6 +78,61 @@ const Fault Faults[] = {
 
 INSTANTIATE_TEST_SUITE_P(All, FalconFault, testing::ValuesIn(Faults),
   [](const testing::TestParamInfo<Fault>& info) { return std::string(info.param.Name); });
+
+TEST_F(FalconFaults, WhatMessagesAdviseEndsTheFault)
+{
+  this->Bus.Plug(1, FalconModel());
+  const auto plugAnew = [this]
+  {
+    this->Bus.Unplug(1);
+    this->Bus.Plug(1, FalconModel());
+  };
+  const auto fail = [&](Do what, int times = 1)
+  {
+    this->Device->Close();
+    plugAnew();
+    ASSERT_TRUE(this->BecomesReady());
+    ASSERT_TRUE(this->Run([&] { return this->GotForce(); }, Push));
+    this->PlayFromHere({ At::Serve, 0, what, times });
+  };
+  fail(Do::Stall);
+  this->ExpectRemedy(
+    "Unplug it and its power supply, connect both again, and open it again", plugAnew);
+  fail(Do::IoError);
+  this->ExpectRemedy("Check the cable, leave out hubs, and open it again", plugAnew);
+  fail(Do::Overflow);
+  this->ExpectRemedy("Unplug it, plug it in again, and open it again", plugAnew);
+  this->Device->Close();
+  this->Bus.Unplug(1);
+  FalconModel slow;
+  slow.LateBy = std::chrono::milliseconds(35);
+  this->Bus.Plug(1, slow);
+  ASSERT_TRUE(this->BecomesReady());
+  ASSERT_TRUE(this->Run([&] { return this->GotForce(); }, Push));
+  this->PlayFromHere({ At::Serve, 0, Do::Late, Always });
+  this->ExpectRemedy("Leave out hubs, relieve the machine, then open it again", plugAnew);
+  fail(Do::Silence, Always);
+  this->ExpectRemedy("Check its power supply and its cable, then open it again", plugAnew);
+  fail(Do::ForgetHome);
+  this->ExpectRemedy("Check its power supply, then open and home it again", plugAnew);
+  this->Bus.Unplug(1);
+  this->ExpectRemedy(
+    "Plug it in again and open it again", [this] { this->Bus.Plug(1, FalconModel()); });
+  const auto turn = [&](const std::array<std::int16_t, 3>& encoders)
+  { this->Bus.With(1, [&](FalconModel& model) { model.Encoders = encoders; }); };
+  turn(ImpossibleCounts);
+  this->ExpectRemedy("Close it, open it and home it again", [&] { turn(FalconModel().Encoders); });
+
+  // As a machine that is too busy for the exchange: the servo's time runs ahead of it.
+  const auto channel = this->Device->GetChannel();
+  haptics::DeviceSample sample;
+  double time = 1e9;
+  for (int reads = 0; reads < 1000 && channel->Read(time, sample); ++reads)
+  {
+    time += 0.21;
+  }
+  this->ExpectRemedy("Relieve it, or let the program have real-time priority, then open", [] {});
+}
 
 /// Faults that a session survives.
 class FalconHiccup
@@ -140,12 +194,7 @@ TEST_F(FalconFaults, GivesThePositionOfTheEncodersAndTheButtons)
 {
   FalconModel model;
   const Force place{ 0.011, -0.017, 0.131 };
-  haptics::FalconKinematics::Vector angles{};
-  ASSERT_TRUE(haptics::FalconKinematics::Inverse(place, angles));
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    model.Encoders[i] = haptics::FalconKinematics::CountOfAngle(angles[i]);
-  }
+  model.Encoders = EncodersAt(place);
   model.Buttons = 9;
   this->Bus.Plug(1, model);
   ASSERT_TRUE(this->BecomesReady());
@@ -318,7 +367,7 @@ TEST_F(FalconFaults, IsOpenedAgainByHandAfterItWasPulledOutAndPluggedIn)
   ASSERT_TRUE(this->RunUntil(vtkHapticDevice::Faulted, Push));
   const int arrivals = this->Events.Arrivals;
   this->Bus.Plug(1, FalconModel());
-  ASSERT_TRUE(this->Run([&] { return this->Events.Arrivals > arrivals; })) << "is told";
+  ASSERT_TRUE(this->Run([&] { return this->Events.Arrivals > arrivals; })) << "is reported";
   EXPECT_EQ(this->Device->GetState(), vtkHapticDevice::Faulted) << "but nothing moves by itself";
   EXPECT_TRUE(this->BecomesReady());
 }
@@ -343,7 +392,7 @@ TEST_F(FalconFaults, IsOpenedByItselfOnArrivalWhereAskedTo)
   EXPECT_STREQ(this->Device->GetErrorMessage(), "");
 }
 
-// The farewell to a device that takes no byte lasts: the servo notices long before it is told.
+// The farewell to a device that takes no byte lasts: the servo notices long before it is reported.
 TEST_F(FalconFaults, IsOpenedByItselfAfterItWasJammed)
 {
   FalconModel model;
@@ -357,7 +406,7 @@ TEST_F(FalconFaults, IsOpenedByItselfAfterItWasJammed)
   EXPECT_TRUE(this->RunUntil(vtkHapticDevice::Ready)) << this->Device->GetStatusMessage();
 }
 
-TEST_F(FalconFaults, TellsOfAPoseThatItsArmsCannotTakeAndOpensAgain)
+TEST_F(FalconFaults, ReportsAPoseThatItsArmsCannotTakeAndOpensAgain)
 {
   this->Bus.Plug(1, FalconModel());
   ASSERT_TRUE(this->BecomesReady());
@@ -374,7 +423,7 @@ TEST_F(FalconFaults, TellsOfAPoseThatItsArmsCannotTakeAndOpensAgain)
   EXPECT_TRUE(this->BecomesReady());
 }
 
-TEST_F(FalconFaults, TellsThatTheMachineIsTooBusyWhereNoNewPositionComes)
+TEST_F(FalconFaults, ReportsThatTheMachineIsTooBusyWhereNoNewPositionComes)
 {
   this->Bus.Plug(1, FalconModel());
   ASSERT_TRUE(this->BecomesReady());
@@ -394,7 +443,7 @@ TEST_F(FalconFaults, TellsThatTheMachineIsTooBusyWhereNoNewPositionComes)
   EXPECT_TRUE(this->EndsWithoutForce());
 }
 
-TEST_F(FalconFaults, HasTheMessageOfAStateWhenItTellsOfTheState)
+TEST_F(FalconFaults, HasTheMessageOfAStateWhenItReportsTheState)
 {
   std::vector<std::string> messages; // at each change of state
   int changes = 0;

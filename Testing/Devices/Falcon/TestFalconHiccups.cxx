@@ -1,9 +1,12 @@
 // Replies that are lost, damaged or late while a servo presses: what the device got, packet by
 // packet.
 #include "FalconBench.h"
+#include "FalconEncoders.h"
 #include "ServoTestTools.h"
+#include "WaitFor.h"
 
 #include "haptics/Devices/Falcon/FalconKinematics.h"
+#include "vtkHapticReadings.h"
 #include "vtkHapticSafety.h"
 #include "vtkHapticServo.h"
 
@@ -16,18 +19,6 @@ namespace
 using Torques = std::array<std::int16_t, 3>;
 
 const std::array<double, 3> Push{ 0.3, -0.2, 1.0 };
-
-std::array<std::int16_t, 3> CountsAt(double height)
-{
-  haptics::FalconKinematics::Vector angles{};
-  haptics::FalconKinematics::Inverse({ 0.0, 0.0, height }, angles);
-  std::array<std::int16_t, 3> counts{};
-  for (std::size_t leg = 0; leg < counts.size(); ++leg)
-  {
-    counts[leg] = haptics::FalconKinematics::CountOfAngle(angles[leg]);
-  }
-  return counts;
-}
 
 int Largest(const Torques& torques)
 {
@@ -59,7 +50,7 @@ protected:
   ::testing::AssertionResult Press()
   {
     FalconModel model;
-    model.Encoders = CountsAt(0.131);
+    model.Encoders = EncodersAt({ 0.0, 0.0, 0.131 });
     this->Bus.Plug(1, model);
     const auto ready = this->BecomesReady();
     if (!ready)
@@ -75,7 +66,10 @@ protected:
     {
       return testing::AssertionFailure() << "the servo does not run";
     }
-    this->Bus.With(1, [](FalconModel& pressed) { pressed.Encoders = CountsAt(0.124); });
+    this->Bus.With(1,
+      [](FalconModel& pressed) {
+        pressed.Encoders = EncodersAt({ 0.0, 0.0, 0.124 });
+      });
     return this->Wait([&] { return this->GetPush() > 3.0; })
       ? testing::AssertionSuccess()
       : testing::AssertionFailure() << "pushes with " << this->GetPush() << " N";
@@ -84,20 +78,18 @@ protected:
   template <typename Condition>
   bool Wait(Condition condition)
   {
-    const auto end = FalconModel::Clock::now() + std::chrono::seconds(10);
-    while (!condition() && FalconModel::Clock::now() < end)
-    {
-      this->Device->Update();
-      this->Servo->Update();
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    return condition();
+    return WaitFor(condition,
+      [this]
+      {
+        this->Device->Update();
+        this->Servo->Update();
+      });
   }
 
   double GetPush()
   {
     double force[3];
-    this->Servo->GetForce(force);
+    this->Servo->GetReadings()->GetForce(force);
     return force[2];
   }
 
@@ -160,7 +152,7 @@ TEST_P(FalconShortHiccup, LetsTheForceComeBackSoftly)
   EXPECT_EQ(this->Events.Errors, 0);
 }
 
-// One that is behind stays behind: the least of many lags tells, whatever else the machine does.
+// One that is behind stays behind: the least of many lags counts, whatever else the machine does.
 TEST_P(FalconShortHiccup, GivesNoOlderPositionsAfterwards)
 {
   FalconModel model;
@@ -181,9 +173,10 @@ TEST_P(FalconShortHiccup, GivesNoOlderPositionsAfterwards)
     haptics::FalconKinematics::Vector angles{};
     ASSERT_TRUE(channel->Read(Now(), sample));
     ASSERT_TRUE(haptics::FalconKinematics::Inverse(sample.Position, angles));
-    const int told = haptics::FalconKinematics::CountOfAngle(angles[0]) - FalconModel::FirstCount;
+    const int reported =
+      haptics::FalconKinematics::CountOfAngle(angles[0]) - FalconModel::FirstCount;
     // Another packet may have come between the two.
-    const int lag = (served - told + FalconModel::CountTo + 100) % FalconModel::CountTo - 100;
+    const int lag = (served - reported + FalconModel::CountTo + 100) % FalconModel::CountTo - 100;
     least = std::min(least, std::max(0, lag));
     std::this_thread::sleep_for(std::chrono::microseconds(500));
   }
@@ -243,16 +236,16 @@ TEST_F(FalconHiccups, SoftenSurfacesWhereRepliesAreLateButNotTooLate)
   ASSERT_TRUE(this->Press());
   const double damping = this->Device->GetDamping();
   ASSERT_GT(damping, 0.0);
-  EXPECT_LE(this->Servo->GetCurrentStiffness(), 0.9 * damping / 0.0025 + 1e-9)
+  EXPECT_LE(this->Servo->GetReadings()->GetStiffness(), 0.9 * damping / 0.0025 + 1e-9)
     << "1 kHz and the latency that the device states";
   this->Play({ "", Do::Late, Always, 8 });
   EXPECT_TRUE(this->Wait(
     [&]
     {
-      const double stiffness = this->Servo->GetCurrentStiffness();
+      const double stiffness = this->Servo->GetReadings()->GetStiffness();
       return stiffness > 0.0 && stiffness <= 0.9 * damping / (0.0005 + 0.016);
     }))
-    << this->Servo->GetCurrentStiffness();
+    << this->Servo->GetReadings()->GetStiffness();
 }
 
 TEST_F(FalconHiccups, SendNoForceOfAServoThatDoesNotKnowOfThem)

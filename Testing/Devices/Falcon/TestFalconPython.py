@@ -38,7 +38,7 @@ check(falcon.GetState() == vtkHapticDevice.Faulted, "faults where there is no su
 message = falcon.GetErrorMessage()
 check("Falcon" in message or "USB" in message, "says why: " + repr(message))
 check(falcon.GetStatusMessage() == message, "has the error as its status")
-check(events == ["Opening", "Faulted"], "tells its states: " + repr(events))
+check(events == ["Opening", "Faulted"], "reports its states: " + repr(events))
 check("StatusMessage: " + message in str(falcon), "prints it")
 falcon.Close()
 check(falcon.GetErrorMessage() == "" and falcon.GetStateAsString() == "Closed", "closes")

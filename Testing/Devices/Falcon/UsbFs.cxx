@@ -6,6 +6,7 @@
 #include <fcntl.h>
 #include <pty.h>
 #include <sys/ioctl.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/sysmacros.h>
@@ -38,6 +39,13 @@ int RealIoctl(int fd, unsigned long request, void* argument)
   static const auto real =
     reinterpret_cast<int (*)(int, unsigned long, ...)>(dlsym(RTLD_NEXT, "ioctl"));
   return real(fd, request, argument);
+}
+
+ssize_t RealSendmsg(int socket, const msghdr* message, int flags)
+{
+  static const auto real =
+    reinterpret_cast<ssize_t (*)(int, const msghdr*, int)>(dlsym(RTLD_NEXT, "sendmsg"));
+  return real(socket, message, flags);
 }
 
 /// The device number of an open file. Asked of the kernel itself, since umockdev 0.19 answers
@@ -426,6 +434,23 @@ extern "C" const char* __tsan_default_suppressions()
 {
   return "race:libumockdev.so\nrace:libglib-2.0.so\nrace:libgobject-2.0.so\n"
          "race:libgio-2.0.so\nrace:libudev.so\n";
+}
+
+/// umockdev ends the process where a listener to hotplug events leaves while it is informed of one.
+/// The kernel has nobody refuse an event: who has left misses it.
+extern "C" ssize_t sendmsg(int socket, const msghdr* message, int flags)
+{
+  const ssize_t sent = RealSendmsg(socket, message, flags);
+  if (sent >= 0 || errno != ECONNREFUSED || !TheBus.load())
+  {
+    return sent;
+  }
+  ssize_t size = 0;
+  for (std::size_t i = 0; i < message->msg_iovlen; ++i)
+  {
+    size += static_cast<ssize_t>(message->msg_iov[i].iov_len);
+  }
+  return size;
 }
 
 extern "C" int ioctl(int fd, unsigned long request, ...) noexcept

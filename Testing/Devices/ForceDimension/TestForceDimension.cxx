@@ -1,4 +1,5 @@
 // The driver of Force Dimension's devices against a stub of libdrd.so with the same symbols.
+#include "../../TemporaryFolder.h"
 #include "DriverTest.h"
 #include "StubBench.h"
 #include "StubDhd.h"
@@ -57,16 +58,7 @@ TEST_F(ForceDimension, ButtonsAndWristAreReportedAndTheVendorsRegulationStops)
   this->Push();
   EXPECT_FALSE(this->Stub.IsRegulating);
   EXPECT_EQ(this->Stub.AutoInitializations, 0);
-  EXPECT_TRUE(WaitFor(
-    [this]
-    {
-      this->Exchange();
-      return this->Device->GetButtons() == 5;
-    }));
-  double q[4];
-  this->Device->GetOrientation(q);
-  EXPECT_NEAR(q[0], 0.7071, 1e-3);
-  EXPECT_NEAR(q[2], 0.7071, 1e-3) << "up is y here";
+  this->ExpectHeldAndTurned();
   EXPECT_STREQ(this->Device->GetModelName(), "omega.3 1234");
 }
 
@@ -139,14 +131,13 @@ TEST_F(ForceDimension, AnOldVersionIsSaid)
 
 TEST_F(ForceDimension, AStaticLibraryAloneIsSaid)
 {
-  const std::string sdk = std::string(testing::TempDir()) + "/fdsdk";
-  std::filesystem::create_directories(sdk + "/lib");
-  std::ofstream(sdk + "/lib/libdrd.a") << "\n";
-  setenv("FDSDK", sdk.c_str(), 1);
+  const TemporaryFolder sdk;
+  std::filesystem::create_directory(sdk.File("lib"));
+  std::ofstream(sdk.File("lib/libdrd.a")) << "\n";
+  setenv("FDSDK", sdk.Path.c_str(), 1);
   this->Device->SetLibraryFile("");
   EXPECT_TRUE(Says(this->FaultOfOpening(), "only the static")) << this->Device->GetErrorMessage();
   unsetenv("FDSDK");
-  std::filesystem::remove_all(sdk);
 }
 
 TEST_F(ForceDimension, ADeviceThatIsUnpluggedIsSaid)
@@ -176,9 +167,68 @@ TEST_F(ForceDimension, ALibraryThatHangsEndsTheServoAndNotTheProgram)
   this->Stub.Hangs = true;
   EXPECT_TRUE(WaitFor([this] { return !this->Exchange(); }));
   EXPECT_TRUE(WaitForFault(this->Device));
-  EXPECT_TRUE(Says(this->Device->GetErrorMessage(), "hangs"));
-  this->Stub.Hangs = false;
+  ExpectRemedyOf(this->Device,
+    "Relieve the machine or start that software anew, then open the device again",
+    [this] { this->Stub.Hangs = false; });
+  this->Device->Close();
   this->Push();
+}
+
+TEST_F(ForceDimension, WhatMessagesAdviseEndsTheFault)
+{
+  this->Stub.Count = 0;
+  this->ExpectRemedyOfOpening(
+    "Connect its USB cable and its power supply", [this] { this->Stub.Count = 1; });
+  this->Stub.Major = 2;
+  this->ExpectRemedyOfOpening(
+    "which is too old. Install version 3", [this] { this->Stub.Major = 3; });
+  this->Stub.IsInitialized = false;
+  this->ExpectRemedyOfWaiting(
+    "move the arm through all of its range by hand (a Falcon: pull it out, "
+    "push it in); or keep clear of it and open it with AutoInitialize on",
+    [this] { this->Stub.IsInitialized = true; });
+  this->Stub.IsInitialized = false;
+  this->ExpectRemedyOfWaiting("or keep clear of it and open it with AutoInitialize on",
+    [this]
+    {
+      this->Device->Close();
+      this->Device->AutoInitializeOn();
+    });
+  this->Stub.IsInitialized = false;
+  this->Stub.FailsToInitialize = true;
+  this->ExpectRemedyOfOpening("Check the device's cable, power and emergency stop, then open it",
+    [this] { this->Stub.FailsToInitialize = false; });
+  this->Push();
+  this->Stub.Position[1] = std::numeric_limits<double>::infinity();
+  this->ExpectRemedyOfLoss("Initialise it with the vendor's program, then open it again",
+    [this] { this->Stub.Position[1] = 0.0; });
+}
+
+TEST_F(ForceDimension, ItOpensWithTheLibraryWhereItsMessagesSay)
+{
+  const TemporaryFolder sdk;
+  std::filesystem::create_directory(sdk.File("lib"));
+  const auto install = [&](const char* name)
+  { std::filesystem::copy_file(HAPTICS_STUB_DRD, sdk.File("lib/") + name); };
+  // A copy of the stub has a state of its own, in which one device is plugged in.
+  this->Device->SetLibraryFile("");
+  std::ofstream(sdk.File("lib/libdrd.a")) << "\n";
+  setenv("FDSDK", sdk.Path.c_str(), 1);
+  this->ExpectRemedyOfOpening("copy libdrd.so.3 from Force Dimension's SDK to the same folder",
+    [&] { install("libdrd.so.3"); });
+  std::filesystem::remove(sdk.File("lib/libdrd.so.3"));
+  std::filesystem::remove(sdk.File("lib/libdrd.a"));
+  unsetenv("FDSDK");
+  this->ExpectRemedyOfOpening(
+    "Install Force Dimension's SDK, version 3, and set FDSDK to its folder, or set LibraryFile",
+    [&]
+    {
+      install("libdrd.so");
+      setenv("FDSDK", sdk.Path.c_str(), 1);
+    });
+  unsetenv("FDSDK");
+  this->ExpectRemedyOfOpening(
+    "or set LibraryFile to its libdrd.so", [&] { this->Device->SetLibraryFile(HAPTICS_STUB_DRD); });
 }
 
 TEST_F(ForceDimension, IndicesAreItsIds)

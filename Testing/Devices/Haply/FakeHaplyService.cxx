@@ -10,7 +10,7 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
-#include <json/json.h>
+#include <nlohmann/json.hpp>
 
 #include <chrono>
 #include <cstdint>
@@ -176,13 +176,13 @@ void FakeHaplyService::Talk(std::size_t number)
 std::string FakeHaplyService::State(bool isFull, int session)
 {
   const std::lock_guard<std::mutex> lock(this->Mutex);
-  Json::Value root;
+  nlohmann::json root;
   root["session_id"] = session;
-  root["inverse3"] = Json::arrayValue;
+  root["inverse3"] = nlohmann::json::array();
   const bool isNew = this->Version.rfind("3.5", 0) == 0;
   for (const FakeInverse3& device : this->Devices)
   {
-    Json::Value entry;
+    nlohmann::json entry;
     entry["device_id"] = device.Id;
     if (isFull)
     {
@@ -202,13 +202,13 @@ std::string FakeHaplyService::State(bool isFull, int session)
     entry["status"]["power_supply"] = device.IsPowered;
     entry["status"]["ready"] = device.IsCalibrated && device.IsPowered;
     entry["status"]["started"] = device.IsStarted;
-    root["inverse3"].append(entry);
+    root["inverse3"].push_back(entry);
   }
-  root["verse_grip"] = Json::arrayValue;
-  root["wireless_verse_grip"] = Json::arrayValue;
+  root["verse_grip"] = nlohmann::json::array();
+  root["wireless_verse_grip"] = nlohmann::json::array();
   if (this->HasGrip)
   {
-    Json::Value grip;
+    nlohmann::json grip;
     grip["device_id"] = "1A2B";
     const unsigned int buttons = this->Buttons;
     grip["state"]["buttons"]["a"] = (buttons & 1u) != 0;
@@ -219,39 +219,35 @@ std::string FakeHaplyService::State(bool isFull, int session)
     grip["state"]["orientation"]["x"] = 0.0;
     grip["state"]["orientation"]["y"] = 0.0;
     grip["state"]["orientation"]["z"] = 0.7071067811865476;
-    root["wireless_verse_grip"].append(grip);
+    root["wireless_verse_grip"].push_back(grip);
   }
-  Json::StreamWriterBuilder writer;
-  writer["indentation"] = "";
-  return Json::writeString(writer, root);
+  return root.dump();
 }
 
 void FakeHaplyService::Take(const std::string& text, int session)
 {
-  Json::Value root;
-  const Json::CharReaderBuilder builder;
-  const std::unique_ptr<Json::CharReader> reader(builder.newCharReader());
-  std::string error;
-  if (!reader->parse(text.data(), text.data() + text.size(), &root, &error))
+  const nlohmann::json root = nlohmann::json::parse(text, nullptr, false);
+  if (!root.is_object())
   {
     return;
   }
   const std::lock_guard<std::mutex> lock(this->Mutex);
-  if (root["session"]["configure"]["profile"]["name"].isString())
+  if (root.contains("/session/configure/profile/name"_json_pointer))
   {
     this->HasProfile = true;
   }
   const char* const key = this->Version.rfind("3.5", 0) == 0 ? "vector" : "values";
-  for (const Json::Value& entry : root["inverse3"])
+  const nlohmann::json::json_pointer place(std::string("/commands/set_cursor_force/") + key);
+  for (const nlohmann::json& entry : root.at("inverse3"))
   {
-    const Json::Value& force = entry["commands"]["set_cursor_force"][key];
     for (FakeInverse3& device : this->Devices)
     {
-      if (force.isObject() && entry["device_id"].asString() == device.Id)
+      if (entry.contains(place) && entry.at("device_id") == device.Id)
       {
+        const nlohmann::json& force = entry.at(place);
         this->Owner = session;
         ++this->Forces;
-        device.Force = { force["x"].asDouble(), force["y"].asDouble(), force["z"].asDouble() };
+        device.Force = { force.at("x"), force.at("y"), force.at("z") };
       }
     }
   }

@@ -5,6 +5,10 @@
 #include "vtkHaplyHapticDevice.h"
 #include "vtkStringArray.h"
 
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
 namespace
 {
 using haptics::HaplyMessage;
@@ -96,16 +100,7 @@ TEST_F(Haply, ButtonsAndOrientationOfTheGripAreReported)
   FakeHaplyService service;
   service.Buttons = 5;
   this->Push(service);
-  EXPECT_TRUE(WaitFor(
-    [this]
-    {
-      this->Exchange();
-      return this->Device->GetButtons() == 5;
-    }));
-  double q[4];
-  this->Device->GetOrientation(q);
-  EXPECT_NEAR(q[0], 0.7071, 1e-3);
-  EXPECT_NEAR(q[2], 0.7071, 1e-3) << "up is y here";
+  this->ExpectHeldAndTurned();
   EXPECT_STREQ(this->Device->GetModelName(), "Inverse3 049D");
 }
 
@@ -247,7 +242,7 @@ TEST_F(Haply, ItWaitsForPowerAndCalibrationAndSaysSo)
   EXPECT_TRUE(WaitUntilOpen(this->Device));
 }
 
-TEST_F(Haply, ASecondClientIsToldThatItIsInUse)
+TEST_F(Haply, ASecondClientGetsTheErrorThatItIsInUse)
 {
   FakeHaplyService service;
   this->Push(service);
@@ -371,6 +366,95 @@ TEST_F(Haply, AServiceThatEndsIsSaidAndOneThatComesBackIsTakenAgain)
       return this->Device->IsOpen();
     }))
     << "by itself";
+}
+
+TEST_F(Haply, WhatMessagesAdviseEndsTheFault)
+{
+  auto service = std::make_unique<FakeHaplyService>();
+  const int port = service->GetPort();
+  const auto startAnew = [&](const char* version = "3.5.0.0")
+  {
+    service.reset();
+    service = std::make_unique<FakeHaplyService>(version, port);
+    service->Start();
+  };
+  const auto push = [&] { this->PushUntil([&] { return service->GetForce()[2] > 0.9; }); };
+  this->Device->SetPort(port);
+  service->Stop();
+  this->ExpectRemedyOfOpening(
+    "or start it: systemctl start haply-inverse-service", [&] { startAnew(); });
+  {
+    // Another program's port, which is silent.
+    const int listener = socket(AF_INET, SOCK_STREAM, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof(address);
+    ASSERT_EQ(bind(listener, reinterpret_cast<sockaddr*>(&address), size), 0);
+    ASSERT_EQ(listen(listener, 4), 0);
+    ASSERT_EQ(getsockname(listener, reinterpret_cast<sockaddr*>(&address), &size), 0);
+    this->Device->SetPort(ntohs(address.sin_port));
+    this->ExpectRemedyOfOpening(
+      "Start the service anew, or set its port", [&] { this->Device->SetPort(port); });
+    close(listener);
+  }
+  service->With([](auto& devices) { devices.clear(); });
+  this->ExpectRemedyOfOpening("Connect its USB cable and its power supply, and open it again",
+    [&] { service->With([](auto& devices) { devices.emplace_back(); }); });
+  startAnew("3.0.7.0");
+  this->ExpectRemedyOfOpening(
+    "is too old. Update it to 3.1 or later", [&] { startAnew("3.1.0.0"); });
+  startAnew("");
+  this->ExpectRemedyOfOpening(
+    "how it names a force. Update it to 3.1 or later", [&] { startAnew(); });
+  startAnew("4.0.0.0");
+  this->ExpectRemedyOfOpening("or install the service 3.5", [&] { startAnew("3.5.0.0"); });
+  service->IsMute = true;
+  this->ExpectRemedyOfOpening(
+    "Start it anew: systemctl restart haply-inverse-service", [&] { startAnew(); });
+  service->With([](auto& devices) { devices[0].Permutation = "XZY"; });
+  this->ExpectRemedyOfOpening("Set its basis to XYZ in the service's settings",
+    [&] { service->With([](auto& devices) { devices[0].Permutation = "XYZ"; }); });
+  {
+    vtkNew<vtkHaplyHapticDevice> other;
+    other->SetPort(port);
+    ASSERT_TRUE(WaitUntilOpen(other)) << other->GetErrorMessage();
+    const auto pushes = [&]
+    {
+      haptics::DeviceSample sample;
+      other->GetChannel()->Read(0.0, sample);
+      other->GetChannel()->Write({ 0.0, 1.0, 0.0 });
+      return service->GetForce()[2] > 0.9;
+    };
+    ASSERT_TRUE(WaitFor(pushes));
+    this->ExpectRemedyOfOpening(
+      "End that program's session, and open it again", [&] { other->Close(); });
+  }
+
+  startAnew();
+  push();
+  service->With([](auto& devices) { devices[0].Id = "04BA"; });
+  this->ExpectRemedyOfLoss("Plug it in again and open it again",
+    [&] { service->With([](auto& devices) { devices[0].Id = "049D"; }); });
+  push();
+  service->Damaged = 1000000;
+  this->ExpectRemedyOfLoss("Start it anew and open the device again", [&] { startAnew(); });
+  push();
+  service->IsMute = true;
+  this->ExpectRemedyOfLoss(
+    "systemctl restart haply-inverse-service; then open the device again", [&] { startAnew(); });
+  push();
+  service->With([](auto& devices) { devices[0].HasPosition = false; });
+  this->ExpectRemedyOfLoss(
+    "Calibrate the device, start the service anew and open it again", [&] { startAnew(); });
+  push();
+  service->With([](auto& devices) { devices[0].IsPowered = false; });
+  this->ExpectRemedyOfLoss("connect its power supply; the USB cable alone drives no motor",
+    [&] { service->With([](auto& devices) { devices[0].IsPowered = true; }); });
+  push();
+  service->Stop();
+  this->ExpectRemedyOfLoss(
+    "start it: systemctl start haply-inverse-service; then open the device", [&] { startAnew(); });
 }
 
 TEST_F(Haply, WhatTheServiceHasIsListed)

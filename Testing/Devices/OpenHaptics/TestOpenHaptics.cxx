@@ -1,4 +1,5 @@
 // The driver of 3D Systems' devices against a stub of libHD.so with the same symbols.
+#include "../../TemporaryFolder.h"
 #include "DriverTest.h"
 #include "StubBench.h"
 #include "StubHd.h"
@@ -131,6 +132,70 @@ TEST_F(OpenHaptics, FaultsOfTheMotorsEndItWithoutForce)
   }
 }
 
+TEST_F(OpenHaptics, WhatMessagesAdviseEndsTheFault)
+{
+  const auto isMended = [this] { this->Stub.InitError = 0; };
+  this->Stub.InitError = 0x0300;
+  this->ExpectRemedyOfOpening("Check its cables; run the maker's Touch_Setup", isMended);
+  this->Stub.InitError = 0x0301;
+  this->ExpectRemedyOfOpening("Close that one, then open it again", isMended);
+  this->Stub.InitError = 0x0304;
+  this->ExpectRemedyOfOpening("end other programs that use it, then open the device", isMended);
+  this->Stub.InitError = 0x0600;
+  this->ExpectRemedyOfOpening("Install the licence with the maker's licence manager", isMended);
+  this->Stub.InitError = 0x0102;
+  this->ExpectRemedyOfOpening("Open the device again", isMended);
+  this->Device->SetLibraryFile("libNoSuchHD.so");
+  this->ExpectRemedyOfOpening(
+    "Install 3D Systems' OpenHaptics and its Touch device driver, or set LibraryFile",
+    [this] { this->Device->SetLibraryFile(HAPTICS_STUB_HD); });
+
+  this->Stub.Calibration = 0x5002;
+  this->ExpectRemedyOfWaiting("put the stylus into the inkwell until this goes away",
+    [this] { this->Stub.Calibration = 0x5001; });
+  this->Stub.Style = 1;
+  this->Stub.Calibration = 0x5001;
+  this->ExpectRemedyOfWaiting(
+    "hold the arm in its reset position, all links at right angles, and open "
+    "it with ResetEncoders on",
+    [this]
+    {
+      this->Device->Close();
+      this->Device->ResetEncodersOn();
+    });
+
+  const auto rests = [] {}; // its error is reported once
+  const auto isGentler = [this] { this->Device->SetForceLimit(0.5); };
+  const auto fails = [this](unsigned int code)
+  {
+    this->Push();
+    this->Stub.FrameError = code;
+  };
+  fails(0x0200);
+  this->ExpectRemedyOfLoss("Let it rest for some minutes, use a smaller ForceLimit", rests);
+  fails(0x0203);
+  this->ExpectRemedyOfLoss("Hold it more firmly, use a smaller stiffness, then open it", rests);
+  fails(0x0204);
+  this->ExpectRemedyOfLoss("Switch it off and on, then open it again", rests);
+  fails(0x0201);
+  this->ExpectRemedyOfLoss("Use a smaller ForceLimit, then open it again", isGentler);
+  this->Device->SetForceLimit(3.3);
+  this->Push();
+  this->Stub.Position[0] = std::numeric_limits<double>::quiet_NaN();
+  this->ExpectRemedyOfLoss("Calibrate it with the maker's program, then open it again",
+    [this] { this->Stub.Position[0] = 0.0; });
+  this->Push();
+  this->Stub.IsStalled = true;
+  this->ExpectRemedyOfLoss(
+    "Check the cable, then open the device again", [this] { this->Stub.IsStalled = false; });
+
+  this->Push();
+  vtkNew<vtkOpenHapticsDevice> second;
+  second->SetLibraryFile(HAPTICS_STUB_HD);
+  EXPECT_FALSE(WaitUntilOpen(second));
+  ExpectRemedyOf(second, "Close that one, then open this", [this] { this->Device->Close(); });
+}
+
 TEST_F(OpenHaptics, ASchedulerThatStopsCallingIsSaid)
 {
   this->Push();
@@ -154,7 +219,7 @@ TEST_F(OpenHaptics, ItWaitsForTheInkwellAndSaysSo)
     [this]
     {
       this->Device->Update();
-      return Says(this->Device->GetStatusMessage(), "inkwell");
+      return Says(this->Device->GetStatusMessage(), "put the stylus into the inkwell");
     }));
   EXPECT_EQ(this->Device->GetState(), vtkHapticDevice::Homing);
   this->Stub.Calibration = 0x5001; // the stylus is in it
@@ -171,7 +236,9 @@ TEST_F(OpenHaptics, EncodersAreResetOnlyWhenAsked)
     [this]
     {
       this->Device->Update();
-      return Says(this->Device->GetStatusMessage(), "reset position");
+      return Says(this->Device->GetStatusMessage(),
+        "hold the arm in its reset position, all links at right angles, and open it with "
+        "ResetEncoders on");
     }));
   EXPECT_EQ(this->Stub.UpdatedWith, 0u);
   this->Device->Close();
@@ -180,7 +247,7 @@ TEST_F(OpenHaptics, EncodersAreResetOnlyWhenAsked)
   EXPECT_EQ(this->Stub.UpdatedWith, 1u);
 }
 
-TEST_F(OpenHaptics, ASecondObjectIsToldThatThereIsOneDeviceAProgram)
+TEST_F(OpenHaptics, ASecondObjectGetsTheErrorThatThereIsOneDeviceAProgram)
 {
   this->Push();
   vtkNew<vtkOpenHapticsDevice> second;
@@ -192,19 +259,34 @@ TEST_F(OpenHaptics, ASecondObjectIsToldThatThereIsOneDeviceAProgram)
 
 TEST_F(OpenHaptics, WhatWasSetUpIsListed)
 {
-  const std::string home = std::string(testing::TempDir()) + "/gtdd";
-  std::filesystem::create_directories(home + "/config");
-  std::ofstream(home + "/config/Left Device.config") << "\n";
-  setenv("GTDD_HOME", home.c_str(), 1);
+  const TemporaryFolder home;
   vtkNew<vtkStringArray> ids;
   vtkNew<vtkStringArray> states;
-  this->Device->FindDevices(ids, states);
+  const auto list = [&]
+  {
+    ids->Initialize();
+    states->Initialize();
+    this->Device->FindDevices(ids, states);
+    return std::string(states->GetValue(0));
+  };
+  unsetenv("GTDD_HOME");
+  const auto ExpectRemedyOfList = [&](const char* words, const std::function<void()>& remedy)
+  {
+    const std::string before = list();
+    EXPECT_TRUE(Says(before, words)) << before;
+    remedy();
+    const std::string after = list();
+    EXPECT_FALSE(Says(after, words)) << after;
+  };
+  ExpectRemedyOfList("run the maker's Touch_Setup, and set GTDD_HOME to where it writes",
+    [&]
+    {
+      std::filesystem::create_directory(home.File("config"));
+      std::ofstream(home.File("config/Left Device.config")) << "\n";
+      setenv("GTDD_HOME", home.Path.c_str(), 1);
+    });
   ASSERT_EQ(ids->GetNumberOfValues(), 1);
   EXPECT_EQ(ids->GetValue(0), "Left Device");
-  std::filesystem::remove_all(home);
-  ids->Initialize();
-  this->Device->FindDevices(ids, states);
-  EXPECT_TRUE(Says(states->GetValue(1), "no device was set up"));
   unsetenv("GTDD_HOME");
 }
 }

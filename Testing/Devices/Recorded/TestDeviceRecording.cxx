@@ -1,8 +1,8 @@
+#include "../EventCounter.h"
 #include "haptics/Devices/MonitoredChannel.h"
 #include "haptics/Devices/Recorded/DeviceRecording.h"
 #include "vtkRecordedHapticDevice.h"
 
-#include "vtkCallbackCommand.h"
 #include "vtkNew.h"
 
 #include <gtest/gtest.h>
@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -45,7 +46,7 @@ std::vector<RecordedTick> MakeTicks()
   return ticks;
 }
 
-/// Tests run beside each other: each has a file of its own.
+/// Tests run at the same time: each has a file of its own.
 std::string FileOfThisTest()
 {
   return std::string("DeviceRecording") +
@@ -129,6 +130,37 @@ TEST(DeviceRecording, OfBeforeThereWerePlacementsIsReadWithoutThem)
   EXPECT_EQ(read.Ticks.back().Latency, 0.0);
 }
 
+TEST(DeviceRecording, OfEachVersionIsRead)
+{
+  const char* source = std::getenv("HAPTICS_SOURCE_DIR");
+  ASSERT_TRUE(source) << "set by ctest: the source folder";
+  int versions = 0;
+  for (const auto& entry :
+    std::filesystem::directory_iterator(std::string(source) + "/Testing/Formats"))
+  {
+    if (!entry.is_directory())
+    {
+      continue;
+    }
+    const std::string name = (entry.path() / "stroke.haptic").string();
+    Recording read;
+    std::string error;
+    ASSERT_TRUE(ReadRecording(name, read, error)) << name << ": " << error;
+    EXPECT_EQ(read.Note, "") << name;
+    ASSERT_EQ(read.Ticks.size(), 500u) << name;
+    EXPECT_EQ(read.Header.Rate, 1000.0) << name;
+    EXPECT_EQ(read.Ticks.back().Tick, 499u) << name;
+    double largest = 0.0;
+    for (const RecordedTick& tick : read.Ticks)
+    {
+      largest = std::max(largest, std::hypot(tick.Force[0], tick.Force[1], tick.Force[2]));
+    }
+    EXPECT_GT(largest, 0.1) << name;
+    ++versions;
+  }
+  EXPECT_GE(versions, 1);
+}
+
 TEST(DeviceRecording, CutOffAnywhereReadsToTheLastWholeTickAndSaysSo)
 {
   const std::string name = WriteTicks(MakeTicks());
@@ -166,7 +198,7 @@ TEST(DeviceRecording, ReadsUpToAFlippedBit)
   }
 }
 
-TEST(DeviceRecording, RefusesWhatIsNoneAndTellsWhy)
+TEST(DeviceRecording, RefusesOtherFilesAndSaysWhy)
 {
   Recording read;
   std::string error;
@@ -228,20 +260,6 @@ TEST(DeviceRecording, RefusesAHeaderThatNoServoCanRunWith)
   }
 }
 
-/// Counts warnings or errors and keeps them out of the output.
-struct Listener
-{
-  Listener(vtkObject* object, unsigned long event)
-  {
-    this->Command->SetClientData(&this->Count);
-    this->Command->SetCallback(
-      [](vtkObject*, unsigned long, void* count, void*) { ++*static_cast<int*>(count); });
-    object->AddObserver(event, this->Command);
-  }
-  int Count = 0;
-  vtkNew<vtkCallbackCommand> Command;
-};
-
 TEST(RecordedHapticDevice, IsWhereTheHandWasAndStaysAtTheEnd)
 {
   std::vector<RecordedTick> ticks(3);
@@ -283,7 +301,7 @@ TEST(RecordedHapticDevice, IsWhereTheHandWasAndStaysAtTheEnd)
   }
 }
 
-TEST(RecordedHapticDevice, TellsOfACutOffAndOfTicksThatWereLost)
+TEST(RecordedHapticDevice, ReportsACutOffAndTicksThatWereLost)
 {
   std::vector<RecordedTick> ticks = MakeTicks();
   ticks[1].Tick = 5;
@@ -291,7 +309,7 @@ TEST(RecordedHapticDevice, TellsOfACutOffAndOfTicksThatWereLost)
   const std::string whole = Contents(name);
   Replace(name, whole.substr(0, whole.size() - 1));
   vtkNew<vtkRecordedHapticDevice> device;
-  Listener warnings(device, vtkCommand::WarningEvent);
+  EventCounter warnings(device, vtkCommand::WarningEvent);
   device->SetFileName(name);
   ASSERT_TRUE(device->Open()) << device->GetErrorMessage();
   EXPECT_EQ(warnings.Count, 1);
@@ -303,7 +321,7 @@ TEST(RecordedHapticDevice, TellsOfACutOffAndOfTicksThatWereLost)
 TEST(RecordedHapticDevice, StaysClosedWithoutARecording)
 {
   vtkNew<vtkRecordedHapticDevice> device;
-  Listener errors(device, vtkCommand::ErrorEvent);
+  EventCounter errors(device, vtkCommand::ErrorEvent);
   device->SetFileName("no-such-file.haptic");
   EXPECT_FALSE(device->Open());
   EXPECT_EQ(errors.Count, 1);

@@ -158,7 +158,7 @@ TEST(SimulatedBody, JittersWithinItsBoundsAndAlikeInEveryRun)
   EXPECT_EQ(last[0], last[1]);
 }
 
-TEST(SimulatedBody, TellsPositionsInStepsOfItsEncoders)
+TEST(SimulatedBody, ReportsPositionsInStepsOfItsEncoders)
 {
   BodyParameters parameters = Free();
   parameters.EncoderResolution = 55e-6;

@@ -1,7 +1,7 @@
+#include "../EventCounter.h"
 #include "haptics/Devices/DeviceChannel.h"
 #include "vtkSimulatedHapticDevice.h"
 
-#include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkNew.h"
@@ -22,23 +22,6 @@ namespace
 {
 constexpr double Rounding = 1e-12; // [m]
 using Vector = std::array<double, 3>;
-
-/// Counts events, and keeps error messages from the test's output.
-struct Listener
-{
-  Listener(vtkObject* object, unsigned long event)
-    : Object(object)
-  {
-    this->Command->SetClientData(&this->Count);
-    this->Command->SetCallback(
-      [](vtkObject*, unsigned long, void* count, void*) { ++*static_cast<int*>(count); });
-    object->AddObserver(event, this->Command);
-  }
-  ~Listener() { this->Object->RemoveObserver(this->Command); }
-  vtkObject* Object;
-  int Count = 0;
-  vtkNew<vtkCallbackCommand> Command;
-};
 
 void AddPoint(vtkPolyData* path, double x, double y, double z)
 {
@@ -78,7 +61,7 @@ void ExpectNear(const Vector& a, const Vector& b, double tolerance)
 
 void ExpectFailsToOpen(vtkSimulatedHapticDevice* device, const std::string& named)
 {
-  Listener errors(device, vtkCommand::ErrorEvent);
+  EventCounter errors(device, vtkCommand::ErrorEvent);
   EXPECT_FALSE(device->Open());
   EXPECT_EQ(errors.Count, 1);
   EXPECT_EQ(device->GetState(), vtkHapticDevice::Closed);
@@ -87,10 +70,10 @@ void ExpectFailsToOpen(vtkSimulatedHapticDevice* device, const std::string& name
     << device->GetErrorMessage();
 }
 
-TEST(SimulatedHapticDevice, TellsEveryChangeOfState)
+TEST(SimulatedHapticDevice, ReportsEveryChangeOfState)
 {
   vtkNew<vtkSimulatedHapticDevice> device;
-  Listener changes(device, vtkHapticDevice::StateChangedEvent);
+  EventCounter changes(device, vtkHapticDevice::StateChangedEvent);
   EXPECT_STREQ(device->GetStateAsString(), "Closed");
   EXPECT_TRUE(device->Open());
   EXPECT_STREQ(device->GetStateAsString(), "Ready");
@@ -123,7 +106,7 @@ TEST(SimulatedHapticDevice, IsWhereTheCodePutsIt)
 TEST(SimulatedHapticDevice, RefusesAPositionThatIsNotFinite)
 {
   vtkNew<vtkSimulatedHapticDevice> device;
-  Listener errors(device, vtkCommand::ErrorEvent);
+  EventCounter errors(device, vtkCommand::ErrorEvent);
   ASSERT_TRUE(device->Open());
   device->SetPosition(0.01, 0.02, 0.03);
   device->SetPosition(0.0, std::numeric_limits<double>::quiet_NaN(), 0.0);
@@ -314,10 +297,10 @@ TEST(SimulatedHapticDevice, StaysClosedWithASettingThatIsNoNumber)
   const double nan = std::numeric_limits<double>::quiet_NaN();
   vtkNew<vtkSimulatedHapticDevice> device;
   device->SetMass(nan);
-  ExpectFailsToOpen(device, "Mass is no number");
+  ExpectFailsToOpen(device, "Mass is not a number");
   device->SetMass(0.1);
   device->SetMaximumForce(nan);
-  ExpectFailsToOpen(device, "MaximumForce is no number");
+  ExpectFailsToOpen(device, "MaximumForce is not a number");
   device->SetMaximumForce(3.0);
   EXPECT_TRUE(device->Open()) << device->GetErrorMessage();
 }

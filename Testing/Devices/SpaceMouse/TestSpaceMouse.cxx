@@ -1,5 +1,5 @@
 // The SpaceMouse through libspnav against a daemon that speaks spacenavd's protocol.
-#include "DriverBench.h"
+#include "DriverTest.h"
 #include "haptics/Devices/DeviceChannel.h"
 #include "haptics/Devices/EndingSignals.h"
 #include "vtkNew.h"
@@ -124,7 +124,11 @@ private:
   }
 
   const bool IsOld;
-  const bool HasDevice;
+
+public:
+  std::atomic<bool> HasDevice;
+
+private:
   const std::string Path;
   const int Listener;
   std::atomic<int> Client{ -1 };
@@ -253,14 +257,19 @@ TEST_F(SpaceMouse, NoDaemonIsSaid)
 {
   setenv("SPNAV_SOCKET", "/nowhere/spnav.sock", 1);
   EXPECT_FALSE(WaitUntilOpen(this->Device));
-  EXPECT_TRUE(Says(this->Device->GetErrorMessage(), "daemon does not run"));
+  std::unique_ptr<FakeDaemon> daemon;
+  ExpectRemedyOf(this->Device,
+    "daemon does not run. Install and start spacenavd (Debian: apt install "
+    "spacenavd), or set SPNAV_SOCKET to where it listens",
+    [&] { daemon = std::make_unique<FakeDaemon>(); }); // which sets SPNAV_SOCKET
 }
 
 TEST_F(SpaceMouse, NoSpaceMouseIsSaid)
 {
   FakeDaemon daemon(false, false);
   EXPECT_FALSE(WaitUntilOpen(this->Device));
-  EXPECT_TRUE(Says(this->Device->GetErrorMessage(), "no SpaceMouse is plugged in"));
+  ExpectRemedyOf(this->Device, "no SpaceMouse is plugged in. Connect it, then open it again",
+    [&] { daemon.HasDevice = true; });
 }
 
 TEST_F(SpaceMouse, UnpluggedAndADaemonThatEndsAreSaid)
@@ -269,21 +278,23 @@ TEST_F(SpaceMouse, UnpluggedAndADaemonThatEndsAreSaid)
   this->Open();
   daemon.Send({ DeviceChange, 1, 0, 0, 0, 0, 0, 0 });
   EXPECT_TRUE(WaitForFault(this->Device));
-  EXPECT_TRUE(Says(this->Device->GetErrorMessage(), "was unplugged"));
   this->Read();
   EXPECT_FALSE(this->IsThere);
-  this->Open();
+  ExpectRemedyOf(
+    this->Device, "was unplugged. Connect it, then open it again", [] {}); // the daemon has it
   daemon.End();
   EXPECT_TRUE(WaitForFault(this->Device));
-  EXPECT_TRUE(Says(this->Device->GetErrorMessage(), "daemon has ended"));
+  std::unique_ptr<FakeDaemon> anew;
+  ExpectRemedyOf(this->Device, "daemon has ended. Start spacenavd, then open the SpaceMouse again",
+    [&] { anew = std::make_unique<FakeDaemon>(); });
 }
 
-TEST_F(SpaceMouse, ASecondObjectIsToldThatThereIsOneAProgram)
+TEST_F(SpaceMouse, ASecondObjectGetsTheErrorThatThereIsOneAProgram)
 {
   FakeDaemon daemon;
   this->Open();
   vtkNew<vtkSpaceMouseHapticDevice> second;
   EXPECT_FALSE(WaitUntilOpen(second));
-  EXPECT_TRUE(Says(second->GetErrorMessage(), "Another device object"));
+  ExpectRemedyOf(second, "Close that one, then open this", [this] { this->Device->Close(); });
 }
 }

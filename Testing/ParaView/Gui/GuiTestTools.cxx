@@ -14,6 +14,7 @@
 #include "pqServerManagerModel.h"
 #include "pqTabbedMultiViewWidget.h"
 #include "vtkNew.h"
+#include "vtkPVHapticReadings.h"
 #include "vtkPVHapticScene.h"
 #include "vtkSMParaViewPipelineControllerWithRendering.h"
 #include "vtkSMPropertyHelper.h"
@@ -209,7 +210,7 @@ bool engaged()
 
 bool touching()
 {
-  return clientScene() && clientScene()->GetTouching();
+  return clientScene() && clientScene()->GetReadings()->GetTouching();
 }
 
 bool press(double height)

@@ -11,24 +11,35 @@
 #include "pqPipelineSource.h"
 #include "pqServer.h"
 #include "pqServerManagerModel.h"
+#include "pqSourcesMenuReaction.h"
 #include "pqUndoStack.h"
 #include "pqView.h"
 #include "vtkHapticScene.h"
 #include "vtkHapticServo.h"
+#include "vtkNew.h"
+#include "vtkPVHapticReadings.h"
 #include "vtkPVHapticScene.h"
+#include "vtkSMParaViewPipelineControllerWithRendering.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
+#include "vtkSMSourceProxy.h"
 
 #include <QAbstractButton>
 #include <QAction>
+#include <QApplication>
 #include <QComboBox>
 #include <QDoubleSpinBox>
+#include <QFile>
 #include <QFileInfo>
 #include <QLabel>
 #include <QProgressBar>
 #include <QTableWidget>
 #include <QTest>
+#include <QTimer>
+#include <QToolBar>
+#include <QTreeView>
 
+#include <functional>
 #include <string>
 
 using namespace GuiTest;
@@ -54,6 +65,11 @@ void HapticsGuiTest::initTestCase()
   QVERIFY2(find<QWidget>("pqHapticsPanel"), "The dock panel is there.");
   QVERIFY2(find<QWidget>("HapticsToolBar"), "The toolbar is there.");
   QVERIFY2(!scene(), "Nothing is made before it is needed.");
+  // Nothing is touched yet: what that advises every test does.
+  const QString state = find<QLabel>("state")->text();
+  const auto ExpectRemedyIn = [](const char* words, const QString& text)
+  { return text.contains(words); };
+  QVERIFY2(ExpectRemedyIn("Select a source and press Touch", state), qPrintable(state));
 }
 
 void HapticsGuiTest::init()
@@ -67,7 +83,7 @@ void HapticsGuiTest::init()
   takeComplaint();
 }
 
-void HapticsGuiTest::touchFeelsAWaveletContour()
+void HapticsGuiTest::touchWorksOnAWaveletContour()
 {
   makeWaveletContour();
   pressTouch();
@@ -78,7 +94,7 @@ void HapticsGuiTest::touchFeelsAWaveletContour()
   QCOMPARE(find<QComboBox>("device")->currentText(), QString("Mouse"));
 
   QVERIFY(press());
-  QVERIFY(clientScene()->GetForceMagnitude() > 0.1);
+  QVERIFY(clientScene()->GetReadings()->GetForceMagnitude() > 0.1);
   QVERIFY(waitUntil([] { return find<QProgressBar>("force")->value() > 0; }));
   QVERIFY(waitUntil([] { return find<QTableWidget>("values")->rowCount() > 0; }));
   QVERIFY(looksLike("TouchAWaveletContour.png"));
@@ -86,10 +102,10 @@ void HapticsGuiTest::touchFeelsAWaveletContour()
   pressTouch();
   QVERIFY(!touchIsDown());
   QVERIFY(!engaged());
-  QCOMPARE(clientScene()->GetForceMagnitude(), 0.0);
+  QCOMPARE(clientScene()->GetReadings()->GetForceMagnitude(), 0.0);
 }
 
-void HapticsGuiTest::touchFeelsARealMesh()
+void HapticsGuiTest::touchWorksOnARealMesh()
 {
   const QString file = QString(qgetenv("HAPTICS_SURFACES_DIR")) + "/gearbox.stl";
   if (!QFileInfo::exists(file))
@@ -102,6 +118,47 @@ void HapticsGuiTest::touchFeelsARealMesh()
   QVERIFY(engaged());
   QVERIFY(press(0.3));
   QVERIFY(looksLike("TouchARealMesh.png"));
+}
+
+void HapticsGuiTest::actionsAreInMenuToolBarAndCustomizeShortcuts()
+{
+  QStringList buttons;
+  for (QAction* action : find<QToolBar>("HapticsToolBar")->actions())
+  {
+    QVERIFY2(!action->icon().isNull(), qPrintable(action->text()));
+    buttons << action->text();
+  }
+  const QStringList atOnce{ "Touch", "Engage", "Press", "Drop Landmark", "Clutch", "Record..." };
+  QCOMPARE(buttons, atOnce);
+  QStringList listed;
+  QTimer::singleShot(0,
+    [&listed]
+    {
+      QWidget* dialog = QApplication::activeModalWidget();
+      auto* tree = dialog ? dialog->findChild<QTreeView*>() : nullptr;
+      const std::function<void(const QModelIndex&)> collect = [&](const QModelIndex& parent)
+      {
+        for (int row = 0; row < tree->model()->rowCount(parent); ++row)
+        {
+          const QModelIndex index = tree->model()->index(row, 0, parent);
+          listed << index.data().toString().remove('&');
+          collect(index);
+        }
+      };
+      if (tree)
+      {
+        collect(QModelIndex());
+      }
+      if (dialog)
+      {
+        dialog->close();
+      }
+    });
+  findAction("actionCustomize")->trigger();
+  for (const QString& name : atOnce)
+  {
+    QVERIFY2(listed.contains(name), qPrintable(name + " in: " + listed.join(", ")));
+  }
 }
 
 void HapticsGuiTest::touchIsDisabledWhereNothingCanBeTouchedAndSaysWhy()
@@ -119,11 +176,11 @@ void HapticsGuiTest::touchIsDisabledWhereNothingCanBeTouchedAndSaysWhy()
   QVERIFY2(touch->toolTip().contains("Click into a render view"), qPrintable(touch->toolTip()));
 }
 
-void HapticsGuiTest::touchOfPointsTellsWhatToDo()
+void HapticsGuiTest::touchOfPointsSaysWhatToDo()
 {
   makeSource("PointSource");
   pressTouch();
-  QString complaint; // not before a look at the points was taken, beside
+  QString complaint; // not before a look at the points was taken, in the background
   QVERIFY(waitUntil(
     [&complaint]
     {
@@ -133,6 +190,121 @@ void HapticsGuiTest::touchOfPointsTellsWhatToDo()
   QVERIFY2(complaint.contains("no surface"), qPrintable(complaint));
   QVERIFY(!touchIsDown());
   QVERIFY(!engaged());
+}
+
+/// Follows what messages advise: `ExpectRemedy` finds the words, and not any more afterwards.
+void HapticsGuiTest::whatMessagesAdviseEndsTheFault()
+{
+  auto* touch = findAction("actionTouch");
+  const auto ExpectRemedy = [touch](const char* words, const std::function<void()>& remedy)
+  {
+    const auto says = [touch, words] { return touch->toolTip().contains(words); };
+    const bool wasSaid = waitUntil([&] { return says() && !touch->isEnabled(); });
+    const QString before = touch->toolTip();
+    remedy();
+    return wasSaid && waitUntil([&] { return !says() && touch->isEnabled(); })
+      ? QString()
+      : QString(words) + " | " + before + " | " + touch->toolTip();
+  };
+  QString problem =
+    ExpectRemedy("Select one in the pipeline browser", [] { makeSource("SphereSource"); });
+  QVERIFY2(problem.isEmpty(), qPrintable(problem));
+
+  pqObjectBuilder* builder = pqApplicationCore::instance()->getObjectBuilder();
+  pqServer* server = pqActiveObjects::instance().activeServer();
+  pqPipelineSource* cone = pqSourcesMenuReaction::createSource("sources", "ConeSource");
+  pqActiveObjects::instance().setActiveSource(cone);
+  problem = ExpectRemedy("has not been computed yet. Press Apply", [cone] { apply(cone); });
+  QVERIFY2(problem.isEmpty(), qPrintable(problem));
+
+  // A table, as of a file of comma-separated values.
+  const QString file = QString(qgetenv("HAPTICS_TEST_OUTPUT")) + "/GuiTest.csv";
+  QFile table(file);
+  QVERIFY(table.open(QIODevice::WriteOnly));
+  table.write("x,y\n1,2\n");
+  table.close();
+  pqPipelineSource* rows = builder->createReader("sources", "CSVReader", QStringList(file), server);
+  rows->getProxy()->UpdateVTKObjects();
+  rows->setModifiedState(pqProxy::UNMODIFIED);
+  rows->updatePipeline();
+  pqActiveObjects::instance().setActiveSource(rows);
+  const auto selectCone = [cone] { pqActiveObjects::instance().setActiveSource(cone); };
+  problem = ExpectRemedy("is no surface. Select a source of surfaces or volumes", selectCone);
+  QVERIFY2(problem.isEmpty(), qPrintable(problem));
+
+  pqView* render = pqActiveObjects::instance().activeView();
+  pqActiveObjects::instance().setActiveView(builder->createView("XYChartView", server));
+  problem = ExpectRemedy("Click into a render view, or make one",
+    [render] { pqActiveObjects::instance().setActiveView(render); });
+  QVERIFY2(problem.isEmpty(), qPrintable(problem));
+
+  // An example in the wrong view.
+  auto* example = findAction("actionHapticExampleContour");
+  QVERIFY(example);
+  pqActiveObjects::instance().setActiveView(builder->createView("XYChartView", server));
+  example->trigger();
+  const QString refusal = takeComplaint();
+  const auto ExpectRemedyIn = [](const char* words, const QString& text)
+  { return text.contains(words); };
+  QVERIFY2(ExpectRemedyIn("needs a render view. Click into one, or make one", refusal),
+    qPrintable(refusal));
+  pqActiveObjects::instance().setActiveView(render);
+  example->trigger();
+  QCOMPARE(takeComplaint(), QString());
+  QVERIFY(waitUntil(engaged));
+  pressTouch();
+
+  // What is engaged before anything is touched complains, and Touch helps.
+  setDevice("mouse");
+  startAnew();
+  findAction("actionHapticEngage")->trigger();
+  const QString complaint = takeComplaint();
+  QVERIFY2(complaint.contains("shows nothing that can be touched. Select a source and press Touch"),
+    qPrintable(complaint));
+  makeWaveletContour();
+  pressTouch();
+  QCOMPARE(takeComplaint(), QString());
+  QVERIFY(press());
+
+  // What the hand left has no surface; another source has.
+  findAction("actionHapticDropLandmark")->trigger();
+  findAction("actionHapticLandmarksToSource")->trigger();
+  pqPipelineSource* contour = nullptr;
+  pqPipelineSource* landmarks = nullptr;
+  for (pqPipelineSource* source :
+    pqApplicationCore::instance()->getServerManagerModel()->findItems<pqPipelineSource*>())
+  {
+    contour = source->getSMName().startsWith("Contour") ? source : contour;
+    landmarks = source->getSMName().startsWith("HapticLandmarks") ? source : landmarks;
+  }
+  QVERIFY(contour && landmarks);
+  pqActiveObjects::instance().setActiveSource(landmarks);
+  problem = ExpectRemedy("it has no surface. Select another source",
+    [contour] { pqActiveObjects::instance().setActiveSource(contour); });
+  QVERIFY2(problem.isEmpty(), qPrintable(problem));
+
+  // Cells of several blocks are not selected by touch; merged ones are.
+  startAnew();
+  auto* paint = findAction("actionHapticPaint");
+  pqPipelineSource* group = makeFilter("GroupDataSets", makeSource("SphereSource"));
+  pressTouch();
+  QVERIFY(press(0.5));
+  paint->trigger();
+  QString said;
+  QVERIFY(waitUntil([&said] { return !(said = takeComplaint()).isEmpty(); }));
+  QVERIFY2(ExpectRemedyIn("Apply Merge Blocks, and touch that", said), qPrintable(said));
+  pressTouch();
+  vtkNew<vtkSMParaViewPipelineControllerWithRendering> controller;
+  controller->Hide(
+    group->getSourceProxy(), 0, pqActiveObjects::instance().activeView()->getViewProxy());
+  pqPipelineSource* merged = makeFilter("MergeBlocks", group);
+  pressTouch();
+  QVERIFY(press(0.5));
+  paint->trigger();
+  QVERIFY(
+    waitUntil([merged] { return merged->getSourceProxy()->GetSelectionInput(0) != nullptr; }));
+  QCOMPARE(takeComplaint(), QString());
+  paint->trigger();
 }
 
 void HapticsGuiTest::touchOfASecondSourceAddsIt()
@@ -145,6 +317,15 @@ void HapticsGuiTest::touchOfASecondSourceAddsIt()
   pressTouch();
   QVERIFY(touchIsDown());
   QVERIFY(engaged());
+  QCOMPARE(vtkSMPropertyHelper(scene(), "Surfaces").GetNumberOfElements(), 2u);
+  // Undone, it is not touched, which the button shows; another press touches it again.
+  pqUndoStack* stack = pqApplicationCore::instance()->getUndoStack();
+  QCOMPARE(stack->undoLabel(), QString("Touch"));
+  stack->undo();
+  QVERIFY(waitUntil([] { return !touchIsDown(); }));
+  QVERIFY(engaged());
+  pressTouch();
+  QVERIFY(touchIsDown());
   QCOMPARE(vtkSMPropertyHelper(scene(), "Surfaces").GetNumberOfElements(), 2u);
   pressTouch();
   QVERIFY(!engaged());
@@ -159,7 +340,7 @@ void HapticsGuiTest::closingTheViewReleasesTheHand()
     pqActiveObjects::instance().activeView());
   QVERIFY(!engaged());
   QVERIFY(waitUntil([] { return !touchIsDown(); }));
-  QCOMPARE(clientScene()->GetForceMagnitude(), 0.0);
+  QCOMPARE(clientScene()->GetReadings()->GetForceMagnitude(), 0.0);
   // ParaView goes on, and so does the plugin.
   startAnew();
   makeWaveletContour();
@@ -174,7 +355,7 @@ void HapticsGuiTest::deletingTheTouchedSourceLeavesFreeSpace()
   QVERIFY(press());
   pqApplicationCore::instance()->getObjectBuilder()->destroy(contour);
   QVERIFY(waitUntil([] { return !touching(); }));
-  QCOMPARE(clientScene()->GetForceMagnitude(), 0.0);
+  QCOMPARE(clientScene()->GetReadings()->GetForceMagnitude(), 0.0);
   QCOMPARE(vtkSMPropertyHelper(scene(), "Surfaces").GetNumberOfElements(), 0u);
   QVERIFY(!engaged());
   QCOMPARE(QString(clientScene()->GetMessage()), QString()); // no error: the user did it
@@ -242,7 +423,7 @@ void HapticsGuiTest::findingDevicesShowsTheirStates()
   QCOMPARE(chooser->currentText(), before);
 }
 
-void HapticsGuiTest::aDeviceThatIsNotThereTellsSo()
+void HapticsGuiTest::aDeviceThatIsNotThereIsReported()
 {
   makeWaveletContour();
   setDevice("/nowhere/stroke.hrec");

@@ -13,24 +13,29 @@ private Q_SLOTS:
   void init();
 
   // HapticsGuiTest.cxx: the button, and what may go wrong
-  void touchFeelsAWaveletContour();
-  void touchFeelsARealMesh();
+  void touchWorksOnAWaveletContour();
+  void touchWorksOnARealMesh();
+  void actionsAreInMenuToolBarAndCustomizeShortcuts();
   void touchIsDisabledWhereNothingCanBeTouchedAndSaysWhy();
-  void touchOfPointsTellsWhatToDo();
+  void touchOfPointsSaysWhatToDo();
+  void whatMessagesAdviseEndsTheFault();
   void touchOfASecondSourceAddsIt();
   void closingTheViewReleasesTheHand();
   void deletingTheTouchedSourceLeavesFreeSpace();
   void resettingTheSessionReleasesTheHand();
   void undoTakesTouchBack();
   void undoTakesTheFilterBack();
-  void aDeviceThatIsNotThereTellsSo();
+  void aDeviceThatIsNotThereIsReported();
   void findingDevicesShowsTheirStates();
 
-  // HapticsGuiTestPanel.cxx: the panel, and what goes on beside
+  // HapticsGuiTestPanel.cxx: the panel, and what goes on in the background
   void theTimerRestsWhileReleased();
   void aRestingHandIsNotDrawnAgain();
   void theHandFollowsTheActiveView();
+  void theHandIsInEveryViewThatShowsTheSurface();
+  void undoKeepsTheMaterialOfASource();
   void panelAndProxyShowTheSameSettings();
+  void thePanelSetsSizeAndVisibilityOfTheHand();
   void settingsAreWhatTouchBeginsWith();
   void landmarksBecomeASource();
   void aRecordingIsPlayedBack();
@@ -38,9 +43,14 @@ private Q_SLOTS:
   void strokesBecomeCurvesWithData();
   void aTraceIsPlottedByItsForce();
   void theTouchedCellIsSelected();
+  void aKeyThatParaViewHasTooIsTheHandsWhileItTouches();
   void aDraggedContourIsFollowed();
-  void aLargeSurfaceIsBuiltBeside();
+  void aLargeSurfaceIsBuiltInTheBackground();
+  void theHandIsDrawnOverTheRestOfThePicture();
+  void theHandIsDrawnWithTheRestWhereThatIsNotKept_data();
+  void theHandIsDrawnWithTheRestWhereThatIsNotKept();
   void buildingCanBeCancelled();
+  void eachExampleCanBeTouchedAndUndone();
   void makePictureForReadme();
 };
 

@@ -1,4 +1,4 @@
-// Loaded into ParaView beside the plugin Haptics: runs the tests as soon as ParaView is up, and
+// Loaded into ParaView with the plugin Haptics: runs the tests as soon as ParaView is up, and
 // ends ParaView with the number of those that failed.
 #include "HapticsGuiTest.h"
 

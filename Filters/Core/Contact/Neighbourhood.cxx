@@ -1,0 +1,311 @@
+#include "haptics/Contact/Neighbourhood.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace haptics
+{
+namespace
+{
+/// About as many make gathering rare and scanning quick.
+constexpr double WantedInBall = 16.0;
+/// How far ahead of the god-object a ball is centred, in radii.
+constexpr double ShareAhead = 0.5;
+/// Of a patch's radius.
+constexpr double ShareOfPatch = 1.0 / 64.0;
+
+std::size_t CapacityFor(const TriangleSurface& surface)
+{
+  return std::min<std::size_t>(Neighbourhood::LargestNumberOfTriangles, surface.Triangles().size());
+}
+}
+
+Neighbourhood::Neighbourhood(const std::shared_ptr<const TriangleSurface>& surface)
+  : Table(surface, CapacityFor(*surface))
+  , Triangles(CapacityFor(*surface))
+  , RadiusToTry(surface->Radius())
+{
+}
+
+TriangleList Neighbourhood::Scratch()
+{
+  return { this->Triangles.data(), static_cast<std::int32_t>(this->Triangles.size()) };
+}
+
+void Neighbourhood::KeepClearOfRounding(double distance)
+{
+  const TriangleSurface& surface = this->Table.Surface().Surface();
+  this->SmallestClearance =
+    std::max(surface.Clearance(), 1024.0 * UnitRoundoff * (distance + surface.Radius()));
+  this->Reach = LargestGrowth(this->SmallestClearance, surface.Radius());
+}
+
+void Neighbourhood::KeepClearAfterMove(double distance)
+{
+  const double farthest = this->SmallestClearance / (1024.0 * UnitRoundoff);
+  if (distance + this->Table.Surface().Surface().Radius() > farthest)
+  {
+    this->KeepClearOfRounding(distance);
+    // Twice as far, so that one that goes on does not come here in every tick.
+    this->SmallestClearance *= 2.0;
+    this->Reach *= 2.0;
+    this->Forget();
+    this->ForgetEmptyBall();
+  }
+}
+
+void Neighbourhood::Continue(const Neighbourhood& previous)
+{
+  this->SmallestClearance = std::max(this->SmallestClearance, previous.SmallestClearance);
+  this->Reach = std::max(this->Reach, previous.Reach);
+  this->RadiusToTry = previous.RadiusToTry;
+  this->LargestToTry = previous.LargestToTry;
+  this->MostInBall = previous.MostInBall;
+}
+
+/// Whether a ball holds no place where triangles may be missing.
+bool Neighbourhood::IsWithinPatch(const Vector& centre, double radius) const
+{
+  const SurfacePatch* const patch = this->Table.Surface().Surface().Patch();
+  return !patch || patch->Region().DistanceTo(ToVec3(centre)) + radius <= patch->Region().Radius;
+}
+
+void Neighbourhood::TakeOver(const Neighbourhood& previous)
+{
+  this->Place(previous.Table.Position());
+  this->Continue(previous);
+  this->GatheredAt = previous.GatheredAt;
+  if (previous.HasBall() && previous.IsWithinPatch(previous.Table.Centre(), previous.Radius) &&
+    this->Table.TakeOver(previous.Table))
+  {
+    this->Covered = Region::Ball;
+    this->Radius = previous.Radius;
+    this->EmptyCentre = previous.EmptyCentre;
+    this->EmptyRadius = previous.EmptyRadius;
+    this->FoundCount = 0; // only a sweep asks for it, and a patch is not swept
+  }
+}
+
+void Neighbourhood::ForgetLearned()
+{
+  this->EmptyRadius = 0.0;
+  this->RadiusToTry = this->Table.Surface().Surface().Radius();
+  this->LargestToTry = HUGE_VAL;
+  this->MostInBall = FewInBall;
+  this->GatheredAt = this->Table.Position();
+}
+
+bool Neighbourhood::IsFarOut() const
+{
+  const double far = 8.0 * this->Table.Surface().Surface().Radius();
+  return SquaredLength(this->Table.Position()) > far * far;
+}
+
+bool Neighbourhood::PassesThroughNothing(const Vector& to)
+{
+  const bool isEmpty =
+    this->HasBall() && this->IsEmptyAround(this->Table.Position()) && this->IsEmptyAround(to);
+  if (isEmpty)
+  {
+    this->Table.SetTarget(to);
+  }
+  return isEmpty;
+}
+
+bool Neighbourhood::GatherBall(WorkBudget& budget)
+{
+  this->Forget();
+  const TriangleSurface& surface = this->Table.Surface().Surface();
+  const Vector position = this->Table.Position();
+  const Vector moved = position - this->GatheredAt;
+  this->GatheredAt = position;
+  const double surfaceRadius = surface.Radius();
+  const double fromOrigin = glm::length(position);
+  if (fromOrigin > 1.5 * surfaceRadius)
+  {
+    // No triangle is this far out.
+    this->Radius = (fromOrigin - surfaceRadius) * (1.0 - 0x1p-40);
+    this->RadiusToTry = surfaceRadius;
+    this->Table.Clear(position);
+    this->FoundCount = 0;
+    this->EmptyCentre = position;
+    this->EmptyRadius = this->Radius;
+    this->MeasurePosition();
+    this->Covered = Region::Ball;
+    return true;
+  }
+  const auto capacity = static_cast<std::int32_t>(this->Triangles.size());
+  const double way = glm::length(moved);
+  double radius = this->RadiusToTry;
+  const double smallest = 0x1p-20 * surfaceRadius;
+  const SurfacePatch* const patch = surface.Patch();
+  // What would leave a patch is halved as what has too many triangles, as the whole surface's has:
+  // so both are measured alike. At the rim a ball as small as this may leave it.
+  const double smallestInPatch = patch ? ShareOfPatch * patch->Region().Radius : HUGE_VAL;
+  while (budget.Triangles > 0)
+  {
+    // Ahead of a steady motion, so that the ball serves longer.
+    const bool isSteady = way > 0.0 && way < 2.0 * radius;
+    const Vector centre = position + (isSteady ? ShareAhead * radius / way : 0.0) * moved;
+    TriangleList found{ this->Triangles.data(), std::min(capacity, this->MostInBall) };
+    if (radius > smallestInPatch && !this->IsWithinPatch(centre, radius))
+    {
+      found.Overflow = true;
+    }
+    else
+    {
+      surface.Engine().FindInBall(ToVec3(centre), radius, found);
+      budget.Triangles -= found.Count;
+    }
+    if (!found.Overflow)
+    {
+      this->Radius = radius * (1.0 - 0x1p-40);
+      this->Fill(found, centre, centre, radius, radius);
+      this->Covered = Region::Ball;
+      const double change = std::sqrt(WantedInBall / (this->Table.Size() + 1.0));
+      // A surface of small triangles comes into a growing ball all at once: a radius that was too
+      // large is not tried again soon.
+      this->LargestToTry *= 1.05;
+      this->RadiusToTry =
+        std::min({ radius * std::clamp(change, 0.5, 4.0), surfaceRadius, this->LargestToTry });
+      if (found.Count < this->MostInBall / 4)
+      {
+        this->MostInBall = std::max(FewInBall, this->MostInBall / 2);
+      }
+      return true;
+    }
+    if (radius > smallest)
+    {
+      this->LargestToTry = 0.7 * radius;
+      radius *= 0.5;
+    }
+    else if (this->MostInBall < capacity)
+    {
+      this->MostInBall *= 4;
+      this->LargestToTry = HUGE_VAL;
+    }
+    else
+    {
+      return false;
+    }
+  }
+  return false;
+}
+
+bool Neighbourhood::GatherSegment(const Vector& to, WorkBudget& budget)
+{
+  this->Forget();
+  const TriangleSurface& surface = this->Table.Surface().Surface();
+  const Vector position = this->Table.Position();
+  // Far away there is no triangle, and the engine's coordinates are for the surface's own size.
+  const double reach = 1.5 * surface.Radius();
+  const Vector way = to - position;
+  const double a = SquaredLength(way);
+  const double b = glm::dot(way, position);
+  const double c = SquaredLength(position) - reach * reach;
+  const double root = b * b - a * c;
+  double enter = 0.0;
+  double leave = 1.0;
+  if (a > 0.0 && root > 0.0)
+  {
+    enter = std::max(0.0, (-b - std::sqrt(root)) / a);
+    leave = std::min(1.0, (-b + std::sqrt(root)) / a);
+  }
+  const Vector first = position + enter * way;
+  const Vector last = position + leave * way;
+  TriangleList found = this->Scratch();
+  if ((a == 0.0 || root > 0.0) && enter <= leave)
+  {
+    surface.Engine().FindOnSegment(ToVec3(first), ToVec3(last), found);
+    budget.Triangles -= found.Count;
+  }
+  if (found.Overflow || budget.Triangles <= 0)
+  {
+    return false;
+  }
+  this->Radius = HUGE_VAL;
+  this->Fill(found, position, 0.5 * (first + last), 0.5 * glm::length(last - first) + this->Reach,
+    std::sqrt(a));
+  this->Covered = Region::Segment;
+  return true;
+}
+
+bool Neighbourhood::GatherSwept(const Vector& to, WorkBudget& budget)
+{
+  // Engines find a triangle wherever it passes.
+  const auto holdsWay = [&]
+  { return this->HasBall() && this->IsInBall(this->Table.Position()) && this->IsInBall(to); };
+  return holdsWay() || (this->GatherBall(budget) && holdsWay()) || this->GatherSegment(to, budget);
+}
+
+/// Keeps of the found triangles those that meet the ball about `middle`. `farthest`: no place that
+/// will be asked for is farther from `centre`.
+void Neighbourhood::Fill(const TriangleList& found, const Vector& centre, const Vector& middle,
+  double radius, double farthest)
+{
+  this->FoundCount = found.Count;
+  const double nearest = this->Table.Fill(
+    found, { middle, radius, centre, farthest, this->Table.Position(), this->SmallestClearance });
+  this->EmptyRadius = 0.0;
+  this->GrowEmptyBall(nearest);
+  this->MeasurePosition();
+}
+
+/// `nearest`: no gathered triangle is nearer to the god-object.
+void Neighbourhood::GrowEmptyBall(double nearest)
+{
+  const Vector& position = this->Table.Position();
+  const double rim = this->Radius - glm::length(position - this->Table.Centre());
+  const double radius = std::min(nearest - this->Reach, rim);
+  if (radius > this->EmptyRadius - glm::length(position - this->EmptyCentre))
+  {
+    this->EmptyCentre = position;
+    this->EmptyRadius = radius;
+  }
+}
+
+void Neighbourhood::GrowToPlanes()
+{
+  // No triangle is nearer than its plane.
+  const double nearest = this->HasBall() ? this->Table.NearestPlane(this->Reach) : 0.0;
+  if (nearest > this->Reach)
+  {
+    this->GrowEmptyBall(nearest);
+  }
+}
+
+void Neighbourhood::MeasurePosition()
+{
+  this->Table.MeasurePosition();
+  this->GrowToPlanes();
+}
+
+void Neighbourhood::Move()
+{
+  if (this->HasSegment())
+  {
+    this->Place(this->Table.Target());
+  }
+  else if (this->Table.MoveToTarget())
+  {
+    this->GrowToPlanes();
+  }
+}
+
+void Neighbourhood::MoveSwept()
+{
+  this->Table.SetPosition(this->Table.Target());
+  this->Table.ForgetTarget();
+  if (this->HasBall())
+  {
+    // What the engine found holds for the whole sweep; planes and distances are new.
+    const double radius = this->Radius * (1.0 + 0x1p-39);
+    const Vector centre = this->Table.Centre();
+    this->Fill(this->Found(), centre, centre, radius, radius);
+  }
+  else
+  {
+    this->Forget();
+  }
+}
+}

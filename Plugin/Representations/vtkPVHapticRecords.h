@@ -1,0 +1,53 @@
+/**
+ * @class   vtkPVHapticRecords
+ * @brief   What a hand leaves in ParaView: recording, trace, landmarks
+ *
+ * GUI thread.
+ *
+ * @sa vtkHapticServo vtkHapticTraceRecorder vtkHapticLandmarks vtkPVHapticScene
+ */
+#ifndef Haptics_vtkPVHapticRecords_h
+#define Haptics_vtkPVHapticRecords_h
+
+#include "vtkPVHapticPart.h"
+
+class VTKHAPTICSREPRESENTATIONS_EXPORT vtkPVHapticRecords : public vtkPVHapticPart
+{
+public:
+  static vtkPVHapticRecords* New();
+  vtkTypeMacro(vtkPVHapticRecords, vtkPVHapticPart);
+
+  /** The file that the next run records to, see vtkHapticServo; empty (the default) for none. */
+  void SetRecordingFileName(const char* name);
+  ///@{
+  /**
+   * Whether a trace is kept of every tick, with the arrays that the surfaces have when it is turned
+   * on. Default off; turning it on forgets the last one.
+   */
+  void SetRecordTrace(bool record);
+  bool GetRecordTrace();
+  ///@}
+
+  ///@{
+  /** Landmarks: one where the hand touches, an error in free space; the last one away; all away. */
+  void DropLandmark();
+  void RemoveLastLandmark();
+  void ClearLandmarks();
+  int GetNumberOfLandmarks();
+  ///@}
+  /**
+   * The distance to the one before that is written next to each, a
+   * vtkHapticLandmarks::DistanceType. Default straight.
+   */
+  void SetLandmarkDistance(int distance);
+
+protected:
+  vtkPVHapticRecords();
+  ~vtkPVHapticRecords() override;
+
+private:
+  vtkPVHapticRecords(const vtkPVHapticRecords&) = delete;
+  void operator=(const vtkPVHapticRecords&) = delete;
+};
+
+#endif
