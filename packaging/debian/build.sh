@@ -2,7 +2,7 @@
 # Makes Debian packages of the commit that is checked out.
 # Usage: sh packaging/debian/build.sh [--paraview] [FOLDER]
 #   --paraview   the plugin, for the ParaView that is installed; else the libraries for VTK
-#   FOLDER       where the packages go (default: packages/ beside the sources)
+#   FOLDER       where the packages go (default: packages/ next to the sources)
 set -eu
 profile=
 if [ "${1:-}" = --paraview ]; then
@@ -19,7 +19,7 @@ tree=$work/vtkhaptics-$version
 git -C "$root" archive --prefix="vtkhaptics-$version/" HEAD | tar -x -C "$work"
 tar -C "$work" -czf "$work/vtkhaptics_$version.orig.tar.gz" "vtkhaptics-$version"
 cp -r "$tree/packaging/debian" "$tree/debian"
-rm "$tree/debian/build.sh"
+rm "$tree/debian/build.sh" "$tree/debian/check.sh"
 (cd "$tree" && DEB_BUILD_PROFILES=$profile dpkg-buildpackage -b -us -uc)
 mkdir -p "$out"
 mv "$work"/*.deb "$work"/*.changes "$work"/*.buildinfo "$out"

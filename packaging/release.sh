@@ -1,0 +1,74 @@
+#!/bin/sh
+# Makes and checks what a release consists of, of the commit that is checked out.
+# Usage: sh packaging/release.sh [--wheel VTK_DIR] [--paraview] [--root ROOT] OUT
+#   --wheel     a wheel for pip's VTK too; VTK_DIR as of wheel/build.sh, or "" for vtk-sdk's
+#   --paraview  the Debian package of the plugin; else those of the libraries. The two stacks exclude
+#               each other on Debian 12 and 13: run it once on a system of each
+#   --root      a root of the same Debian that has nothing in it but /proc and /dev, as by debootstrap:
+#               the packages are installed, used and removed there, as root (debian/check.sh)
+# OUT gets the sources, packages, wheels and SHA256SUMS. Run the tests first: sh Testing/test.sh --slow.
+set -eu
+wheel=
+wheel_vtk=
+paraview=
+clean=
+while [ $# -gt 1 ]; do
+  case $1 in
+    --wheel) wheel=yes; wheel_vtk=$2; shift ;;
+    --paraview) paraview=--paraview ;;
+    --root) clean=$(realpath "$2"); shift ;;
+    *) sed -n '2,/^set/s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+  esac
+  shift
+done
+[ $# -eq 1 ] || { sed -n '2,/^set/s/^# \{0,1\}//p' "$0" >&2; exit 2; }
+root=$(cd "$(dirname "$0")/.." && pwd)
+out=$(realpath -m "$1")
+say() { printf '==> %s\n' "$*"; }
+
+say "Versions agree, and the tree is what is committed"
+/usr/bin/python3 "$root/Testing/TestVersions.py" "$root"
+[ -z "$(git -C "$root" status --porcelain)" ] || { echo "release.sh: commit first" >&2; exit 1; }
+version=$(sed -n 's/^project(VTKHaptics VERSION \([0-9.]*\).*/\1/p' "$root/CMakeLists.txt")
+mkdir -p "$out"
+
+say "Sources"
+git -C "$root" archive --prefix="vtkhaptics-$version/" -o "$out/vtkhaptics-$version-source.tar.gz" HEAD
+if [ -n "$wheel" ]; then
+  say "Wheel and sdist"
+  sh "$root/packaging/wheel/build.sh" ${wheel_vtk:+--vtk-dir "$wheel_vtk"} /usr/bin/python3 "$out"
+  sh "$root/packaging/wheel/check.sh" "$out"/vtkhaptics-"$version"-*.whl
+fi
+say "Debian packages"
+sh "$root/packaging/debian/build.sh" $paraview "$out"
+lintian --fail-on error "$out"/*.changes
+if [ -n "$clean" ]; then
+  say "Debian packages, in $clean"
+  tried=$(mktemp -d "$clean/tmp/packages.XXXXXX")
+  cp "$root/packaging/debian/check.sh" "$out"/*.deb "$tried"
+  cp /etc/resolv.conf "$clean/etc/"
+  env -i LANG=C.UTF-8 PATH=/usr/sbin:/usr/bin:/sbin:/bin chroot "$clean" \
+    sh -c 'apt-get -q update >/dev/null && sh "$0/check.sh" "$0"' "/tmp/$(basename "$tried")"
+  rm -r "$tried"
+fi
+say "Recipes and desktop data"
+desktop-file-validate "$root"/packaging/linux/*.desktop
+# AppStream 1.0 fails where there is no homepage, which the project does not have.
+case $(appstreamcli --version) in
+  *\ 0.*) no_homepage= ;;
+  *) no_homepage='--override url-homepage-missing=info' ;;
+esac
+appstreamcli validate --no-net $no_homepage "$root"/packaging/linux/*.metainfo.xml
+for page in "$root"/packaging/linux/*.1; do
+  [ -z "$(man --warnings -l "$page" 2>&1 >/dev/null)" ] || { echo "release.sh: $page has warnings" >&2; exit 1; }
+done
+/usr/bin/python3 -B -c 'import ast, sys; ast.parse(open(sys.argv[1]).read())' \
+  "$root/packaging/spack/packages/vtk_haptics/package.py"
+if /usr/bin/python3 -c 'import rattler_build' 2>/dev/null; then
+  /usr/bin/python3 "$root/packaging/conda/check.py"
+else
+  say "conda/recipe.yaml was not read: there is no py-rattler-build"
+fi
+(cd "$out" && sha256sum ./*.tar.gz ./*.deb $(ls ./*.whl 2>/dev/null) >SHA256SUMS)
+say "In $out:"
+cat "$out/SHA256SUMS"
