@@ -119,7 +119,7 @@ std::vector<BenchmarkSurface> AllBenchmarkSurfaces(const std::string& folder)
 
 namespace
 {
-/// The hand's height over a surface that rays tell.
+/// The hand's height over a surface, by rays.
 class RayedStroke
 {
 public:

@@ -1,4 +1,4 @@
-// Measures what the charts show and prints it as CSV. charts.sh runs all parts; --help tells each.
+// Measures what the charts show and prints it as CSV. charts.sh runs all parts; --help lists them.
 #include "AnalyticSurfaces.h"
 #include "BenchmarkSurfaces.h"
 #include "Comparison.h"
@@ -227,7 +227,7 @@ void PrintDetail(const char* shape, const char* how, std::size_t triangles, cons
   std::fflush(stdout);
 }
 
-/// What a hand 5 mm deep in a sphere of R = 30 mm feels, against the true sphere.
+/// The force on a hand 5 mm deep in a sphere of R = 30 mm, against the true sphere.
 Samples AgainstSphere(const TriangleMesh& mesh, int ticks)
 {
   const double radius = 0.03;

@@ -2,7 +2,7 @@
 //
 // Two threads, as in a scene: one makes a snapshot of waving points 60 or 30 times a second and
 // hands it over, the other ticks at 1 kHz and strokes the surface. Prints CSV, a line a size. Needs
-// two cores for itself; `--help` tells the options.
+// two cores for itself; `--help` lists the options.
 #include "AnalyticSurfaces.h"
 #include "Statistics.h"
 #include "haptics/Servo/GodObjectExchange.h"
@@ -123,7 +123,7 @@ void Run(const Case& scene, double seconds)
   std::vector<double> deforms;
   std::vector<double> costs;
   auto start = Clock::now();
-  double first = 0.0; // of a deforming surface's life: engines that can be refitted are built
+  double first = 0.0; // of a deforming surface's life: the engine is copied
   double due = 0.0;
   while (Since(start) < seconds)
   {
@@ -198,7 +198,7 @@ int main(int argc, char* argv[])
       std::printf(
         "Usage: %s [--seconds S]\n\n  --seconds S  for each case; default 10\n\n"
         "deform: from points to the god-object that is handed over; cpu: of all threads;\n"
-        "first: of the first two, which build engines and are not counted elsewhere;\n"
+        "first: of the first two, which copy the engine and are not counted elsewhere;\n"
         "tick: one servo cycle without the device; kept: share of ticks that began\n"
         "within their period.\n",
         argv[0]);

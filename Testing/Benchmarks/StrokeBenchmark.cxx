@@ -1,17 +1,16 @@
 // One stroke over one surface: what a tick costs in time, and by callgrind in instructions.
 #include "AnalyticSurfaces.h"
-#include "BenchmarkSurfaces.h"
-#include "FirstHit.h"
+#include "HandStrokes.h"
 #include "Statistics.h"
+#include "haptics/Contact/GodObject.h"
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <random>
+#include <fstream>
+#include <sstream>
 #include <string>
 
 using namespace haptics;
@@ -21,21 +20,17 @@ namespace
 {
 const char* const Help = R"(Times a stroke over a surface, tick by tick.
 
-HapticsStrokeBenchmark SURFACE STROKE [--engine NAME] [--both] [--ticks N] [--repeat N]
+HapticsStrokeBenchmark SURFACE STROKE [--engine NAME] [--both] [--tip R] [--ticks N] [--repeat N]
                        [--surfaces FOLDER]
+HapticsStrokeBenchmark SURFACE STROKE,STROKE... --save FOLDER [--both] [--ticks N]
 
-SURFACE  sphereL    20 * 4^L triangles, R = 1 m (L = 8: 1.3 million, 9: 5.2 million)
-         noiseL     the same, its points pulled in by up to an edge's length: rough
-         starL      the same, its points pulled in by up to 10 cm: spikes
-         NAME       a real surface of FOLDER (default build/surfaces), scaled to R = 1 m
-STROKE   slide      20 mm deep, 1 mm a tick          fast     20 mm deep, 4 mm a tick
-         wander     20 mm deep, 2 to 6 mm a tick, turning at random
-         plunge     from 60 mm above to 70 mm below at 5 mm a tick, and back, at random places
-         near       1 mm above, 1 mm a tick          above    20 mm above, 1 mm a tick
-         hold       20 mm deep, at rest but for a tremor of 55 um
---engine Automatic (default), BruteForce or Embree
+%s--engine Automatic (default), BruteForce or Embree
 --both   both sides of the surface can be touched
+--tip    the radius of a ball in place of the point [m]; the stroke is as much higher. Where a surface
+         is 100 mm across in the hand, 0.02 is a tip of 1 mm
 --ticks  of one stroke (default 10000)
+--surfaces where real surfaces are (default build/surfaces)
+--save   times nothing: leaves the surface and its strokes in FOLDER, for HapticsStrokeReplay
 --repeat strokes, each with a new god-object (default 9): the medians of their figures are printed
 
 Prints: surface, stroke, engine in use, triangles, bytes a triangle, seconds to build; the mean,
@@ -51,8 +46,10 @@ struct Options
   std::string Surface;
   std::string Stroke;
   std::string Folder = "build/surfaces";
+  std::string SaveFolder;
   EngineKind Engine = EngineKind::Automatic;
   Side TouchedSide = Side::Front;
+  double Tip = 0.0;
   int Ticks = 10000;
   int Repeat = 9;
 };
@@ -95,7 +92,7 @@ Options Read(int argc, char** argv)
     { return i + 1 < argc ? argv[++i] : (Fail(word + " needs a value"), ""); };
     if (word == "--help")
     {
-      std::fputs(Help, stdout);
+      std::printf(Help, HandStrokesHelp);
       std::exit(0);
     }
     else if (word == "--engine")
@@ -106,6 +103,15 @@ Options Read(int argc, char** argv)
     {
       options.TouchedSide = Side::Both;
     }
+    else if (word == "--tip")
+    {
+      const std::string radius = value();
+      options.Tip = std::atof(radius.c_str());
+      if (!(options.Tip > 0.0))
+      {
+        Fail("'" + radius + "' is not a radius above 0");
+      }
+    }
     else if (word == "--ticks")
     {
       options.Ticks = Positive(value());
@@ -113,6 +119,10 @@ Options Read(int argc, char** argv)
     else if (word == "--repeat")
     {
       options.Repeat = Positive(value());
+    }
+    else if (word == "--save")
+    {
+      options.SaveFolder = value();
     }
     else if (word == "--surfaces")
     {
@@ -132,110 +142,63 @@ Options Read(int argc, char** argv)
   return options;
 }
 
-/// The length of an edge of Icosphere(level, 1), about.
-double EdgeLength(int level)
+HandSurfaces Build(std::vector<TriangleMesh> meshes, const Options& options)
 {
-  return 1.1 * std::ldexp(1.0, -level);
-}
-
-TriangleMesh MakeMesh(const Options& options)
-{
-  const std::string& name = options.Surface;
-  const int level = name.empty() ? 0 : name.back() - '0';
-  const std::string shape = name.substr(0, name.size() - 1);
-  if (level >= 0 && level <= 9)
+  SurfaceOptions built;
+  built.TouchedSide = options.TouchedSide;
+  built.Engine = options.Engine;
+  HandSurfaces surfaces;
+  for (TriangleMesh& mesh : meshes)
   {
-    if (shape == "sphere")
+    std::string error;
+    surfaces.push_back(TriangleSurface::Build(std::move(mesh), built, error));
+    if (!surfaces.back())
     {
-      return Icosphere(level, 1.0);
-    }
-    if (shape == "noise")
-    {
-      return Star(level, 1.0, EdgeLength(level), 1);
-    }
-    if (shape == "star")
-    {
-      return Star(level, 1.0, 0.1, 1);
+      Fail("The surface could not be built: " + error);
     }
   }
-  TriangleMesh mesh = ReadSurface(options.Folder, name, 1.0);
-  return mesh.Triangles.empty() ? (Fail("There is no surface " + name), mesh) : mesh;
+  return surfaces;
 }
 
-Vec3 RandomDirection(std::mt19937& random)
+std::vector<Vec3> MakeStroke(
+  const Options& options, const std::string& stroke, const HandSurfaces& surfaces)
 {
-  std::normal_distribution<double> normal;
-  return Unit({ normal(random), normal(random), normal(random) });
+  std::vector<Vec3> hips =
+    MakeHandStroke(stroke, options.Surface, surfaces, options.Ticks, options.Tip);
+  return hips.empty() ? (Fail("There is no stroke " + stroke), hips) : hips;
 }
 
-std::vector<Vec3> MakePath(
-  const Options& options, const std::shared_ptr<const TriangleSurface>& surface)
+template <class T>
+void Write(std::ofstream& file, const std::vector<T>& values)
 {
-  std::mt19937 random(7);
-  std::uniform_real_distribution<double> uniform(0.0, 1.0);
-  GodObject ray({ surface });
-  const double far = 2.0 * surface->Radius();
-  const auto height = [&](const Vec3& outwards) {
-    return far - FirstHit(ray, far * outwards, { 0, 0, 0 });
-  };
-  const bool isSphere = options.Surface.rfind("sphere", 0) == 0;
-  double smoothed = 1.0;
-  const auto at = [&](const Vec3& outwards, double above)
+  const std::uint64_t count = values.size();
+  file.write(reinterpret_cast<const char*>(&count), sizeof(count));
+  file.write(
+    reinterpret_cast<const char*>(values.data()), static_cast<std::streamsize>(count * sizeof(T)));
+}
+
+/// As StrokeReplay.cxx reads them.
+void Save(const Options& options, std::vector<TriangleMesh> meshes)
+{
+  std::ofstream surface(options.SaveFolder + "/" + options.Surface, std::ios::binary);
+  for (const TriangleMesh& mesh : meshes)
   {
-    // Smoothed, as a hand does not jump into a hole.
-    smoothed += isSphere ? 1.0 - smoothed : 0.02 * (height(outwards) - smoothed);
-    return (smoothed + above) * outwards;
-  };
-  Vec3 u = Unit(Cross({ 0.3, 0.5, 0.81 }, { 0, 0, 1 }));
-  Vec3 v = Unit(Cross({ 0.3, 0.5, 0.81 }, u));
-  const auto turn = [&](double step)
-  {
-    const Vec3 from = u;
-    u = Unit(u + step * v);
-    v = Unit(v - step * from);
-  };
-  std::vector<Vec3> hips;
-  const std::size_t ticks = static_cast<std::size_t>(options.Ticks);
-  const std::string& stroke = options.Stroke;
-  const bool isSteady = stroke == "slide" || stroke == "fast" || stroke == "near" ||
-    stroke == "above" || stroke == "hold";
-  if (!isSteady && stroke != "wander" && stroke != "plunge")
-  {
-    Fail("There is no stroke " + stroke);
+    Write(surface, mesh.Points);
+    Write(surface, mesh.Triangles);
   }
-  while (hips.size() < ticks)
+  const HandSurfaces surfaces = Build(std::move(meshes), options);
+  std::istringstream strokes(options.Stroke);
+  bool isWritten = static_cast<bool>(surface.flush());
+  for (std::string stroke; std::getline(strokes, stroke, ',');)
   {
-    if (isSteady)
-    {
-      const double step = stroke == "fast" ? 4e-3 : stroke == "hold" ? 0.0 : 1e-3;
-      const double above = stroke == "near" ? 1e-3 : stroke == "above" ? 20e-3 : -20e-3;
-      turn(step);
-      const Vec3 tremor = (stroke == "hold" ? 55e-6 : 0.0) * RandomDirection(random);
-      hips.push_back(at(u, above) + tremor);
-    }
-    else if (stroke == "wander")
-    {
-      const double angle = 0.6 * (uniform(random) - 0.5);
-      v = Unit(std::cos(angle) * v + std::sin(angle) * Cross(u, v));
-      turn(2e-3 + 4e-3 * uniform(random));
-      hips.push_back(at(u, -20e-3));
-    }
-    else
-    {
-      const Vec3 outwards = RandomDirection(random);
-      smoothed = isSphere ? 1.0 : height(outwards);
-      for (double above = 60e-3; above > -70e-3; above -= 5e-3)
-      {
-        hips.push_back((smoothed + above) * outwards);
-      }
-      for (double above = -70e-3; above < 60e-3; above += 5e-3)
-      {
-        hips.push_back((smoothed + above) * outwards);
-      }
-    }
+    std::ofstream file(options.SaveFolder + "/" + stroke, std::ios::binary);
+    Write(file, MakeStroke(options, stroke, surfaces));
+    isWritten = isWritten && file.flush();
   }
-  hips.resize(ticks);
-  return hips;
+  if (!isWritten)
+  {
+    Fail("The files could not be written to " + options.SaveFolder);
+  }
 }
 }
 
@@ -255,20 +218,27 @@ extern "C" __attribute__((noinline)) void RunTicks(GodObject& god, const std::ve
 int main(int argc, char** argv)
 {
   const Options options = Read(argc, argv);
-  TriangleMesh mesh = MakeMesh(options);
-  SurfaceOptions built;
-  built.TouchedSide = options.TouchedSide;
-  built.Engine = options.Engine;
-  std::string error;
-  const auto before = std::chrono::steady_clock::now();
-  const std::shared_ptr<const TriangleSurface> surface =
-    TriangleSurface::Build(std::move(mesh), built, error);
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - before;
-  if (!surface)
+  std::vector<TriangleMesh> meshes = MakeHandSurfaces(options.Surface, options.Folder);
+  if (meshes.empty())
   {
-    Fail("The surface could not be built: " + error);
+    return 2;
   }
-  const std::vector<Vec3> hips = MakePath(options, surface);
+  if (!options.SaveFolder.empty())
+  {
+    Save(options, std::move(meshes));
+    return 0;
+  }
+  const auto before = std::chrono::steady_clock::now();
+  const HandSurfaces surfaces = Build(std::move(meshes), options);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - before;
+  const std::vector<Vec3> hips = MakeStroke(options, options.Stroke, surfaces);
+  double triangles = 0.0;
+  double bytes = 0.0;
+  for (const auto& surface : surfaces)
+  {
+    triangles += static_cast<double>(surface->Triangles().size());
+    bytes += static_cast<double>(surface->MemoryBytes());
+  }
   std::vector<double> figures[5];
   std::vector<double> times(hips.size());
   std::vector<Contact> contacts(hips.size());
@@ -276,7 +246,8 @@ int main(int argc, char** argv)
   long touching = 0;
   for (int i = 0; i < options.Repeat; ++i)
   {
-    GodObject god({ surface });
+    GodObject god({ surfaces.begin(), surfaces.end() }, options.Tip > 0.0 ? Tip::Ball : Tip::Point);
+    god.SetTipRadius(options.Tip);
     god.Update(1.2 * hips[0]);
     RunTicks(god, hips, times, contacts);
     figures[0].push_back(Mean(times));
@@ -296,9 +267,8 @@ int main(int argc, char** argv)
       sum = 31 * sum + bits;
     }
   }
-  std::printf("%s,%s,%s,%zu,%.1f,%.3f", options.Surface.c_str(), options.Stroke.c_str(),
-    EngineNames[static_cast<int>(surface->Engine().Kind())], surface->Triangles().size(),
-    static_cast<double>(surface->MemoryBytes()) / static_cast<double>(surface->Triangles().size()),
+  std::printf("%s,%s,%s,%.0f,%.1f,%.3f", options.Surface.c_str(), options.Stroke.c_str(),
+    EngineNames[static_cast<int>(surfaces.front()->Engine().Kind())], triangles, bytes / triangles,
     seconds.count());
   for (std::vector<double>& figure : figures)
   {

@@ -53,17 +53,33 @@ def fixed_numbers(folder):
     write(folder, "scenes", ("scene", "title", "ours", "other", "component"),
           [("S0", "A fixed scene", "this project", "one that fails", "z")])
     rows = [("S0", "surface", 0, x, 0, 0, 0, 0) for x in (-10, 10)]
-    for run, factor in (("ours", 1.0), ("other", 0.4)):
+    for run, factor in (("ours", 1.0), ("other", 0.4), ("ball", 0.8)):
         for k in range(50):
             t = 0.02 * k
             rows.append(("S0", run, t, 8.0 * t - 4.0, -5.0 * t, 8.0 * t - 4.0,
                          -0.5 * k * (factor < 1.0) * t, factor * (2.5 * t + math.sin(9.0 * t))))
+    write(folder, "way", ("surface", "speed", "depth", "method", "number", "apart", "mean"),
+          [(surface, speed, 5, "substeps", n, factor * speed / n**2, 0.5 + 0.1 * factor * n)
+           for surface, factor in (("fault", 30.0), ("pial", 10.0), ("sphere", 0.0))
+           for speed in (0.2, 0.5) for n in (1, 2, 4, 8, 16)]
+          + [("fault", 0.2, 5, method, n, factor * 1e3 / n, 1.0)
+             for method, factor in (("rate", 0.1), ("rate in one step", 2.0))
+             for n in (500, 1000, 2000, 4000)]
+          + [("fault", 0.2, 5, f"{tip}moved", n, 1e4 * n * factor, 1.0)
+             for tip, factor in (("", 1.0), ("ball ", 0.5)) for n in (1e-6, 5.5e-5)]
+          + [("fault", 0.2, 5, "ball rate", n, 40.0 / n, 1.0) for n in (500, 1000, 2000, 4000)]
+          + [("fault", 0.2, 5, method, 0.5, 3.0, 1.0) for method in ("detail", "ball detail")]
+          + [("fault", 0.2, 5, "steps", n, 4.0 / n, 0.8 * n) for n in (4, 16)]
+          + [("fault", 0.2, 5, f"tip {tip:g}", 1, tip, 8.0 + tip) for tip in (0.5, 1, 3)])
+    write(folder, "noise", ("surface", "radius", "deviation", "gain", "gain_p95"),
+          [(surface, r, 20.0 + factor * r, 0.5 + 0.1 * factor * r, 0.8 + 0.3 * r)
+           for surface, factor in (("rough", 5.0), ("sphere", 0.0)) for r in (0, 0.5, 1, 3)])
     write(folder, "traces", ("scene", "run", "time_s", "hip_x_mm", "hip_z_mm", "held_x_mm",
                              "held_z_mm", "force_n"), rows)
 
 
-def contact_table(build_type):
-    """What contact.sh makes of a build, with a stand-in for the benchmark."""
+def features_table(build_type):
+    """What features.sh makes of a build, with a stand-in for the benchmark."""
     with tempfile.TemporaryDirectory() as scratch:
         build = pathlib.Path(scratch)
         (build / "CMakeCache.txt").write_text(
@@ -79,7 +95,7 @@ def contact_table(build_type):
         (build / "bin" / "HapticsContactBenchmark").chmod(0o755)
         environment = {**os.environ, "BUILD": scratch}
         environment.pop("HAPTICS_SURFACES", None)
-        script = pathlib.Path(__file__).with_name("contact.sh")
+        script = pathlib.Path(__file__).with_name("features.sh")
         subprocess.run(["sh", script, build / "table.csv"], env=environment, check=True,
                        capture_output=True)
         return (build / "table.csv").read_text(encoding="utf-8")
@@ -123,9 +139,9 @@ def looks_alike(picture, baseline, output):
     return testing.RegressionTest(reader, THRESHOLD) == vtkTesting.PASSED
 
 
-table = contact_table("Debug")
+table = features_table("Debug")
 if ", Debug\n" not in table or '"Made_median",1' not in table:
-    sys.exit("contact.sh does not say what was built:\n" + table)
+    sys.exit("features.sh does not say what was built:\n" + table)
 for ending in ("exit 1", "kill -TERM $PPID"):
     tables, remains = interrupted_charts(ending)
     if len(tables) != 5 or remains or "name,value" not in tables["engines.csv"] or \
@@ -138,7 +154,8 @@ drawn.mkdir(parents=True, exist_ok=True)
 fixed_numbers(drawn)
 for chart in charts.CHARTS.values():
     chart(drawn, drawn)
-pictures = ("speed-accuracy", "cost", "detail", "engines", "scene-fig3", "scene-s0")
+pictures = ("speed-accuracy", "cost", "detail", "engines", "scene-fig3", "scene-s0", "way",
+            "noise")
 failed = [name for name in pictures
           if not looks_alike(drawn / (name + ".png"), baselines / (name + ".png"), output)]
 sys.exit("do not look as in " + str(baselines) + ": " + ", ".join(failed) if failed else 0)

@@ -12,7 +12,7 @@ import math
 import pathlib
 
 from measured import per_hour, rows, short
-from panels import CIRCLE, DASHED, DIAMOND, INK, SQUARE, Panel, Scale, draw
+from panels import CIRCLE, CROSS, DASHED, DIAMOND, INK, SOLID, SQUARE, Panel, Scale, draw
 from tables import fill
 
 FAMILY = {  # name in the tables: (label, colour)
@@ -30,11 +30,11 @@ FAMILY = {  # name in the tables: (label, colour)
 }
 SIZES = {"under 1k": 8.0, "1k to 10k": 12.0, "over 10k": 17.0}
 TICK_TIMES = {1: "1 us", 10: "10 us", 100: "100 us", 1e3: "1 ms", 1e4: "10 ms"}
-# Where the worst rate of leaks stands beside its ring, as the rings lie close together.
+# Where the worst rate of leaks stands next to its ring, as the rings lie close together.
 LEAK_NOTES = {"paper": (-70, 10), "paper, iterated": (14, -2), "nearest surface": (-44, 10),
               "paper, iterated, grown": (-16, -28),
               "vtkStaticCellLocator, tol 0": (-64, -4)}
-OURS, OTHER = (20, 60, 200), (210, 90, 30)
+OURS, OTHER, BALL = (20, 60, 200), (210, 90, 30), (60, 150, 80)
 
 
 def decades(low, high, label):
@@ -101,7 +101,7 @@ def cost(results, output):
 
 
 def detail(results, output):
-    """(e): what coarser surfaces cost, against what a hand can tell."""
+    """(e): what coarser surfaces cost, against what a hand can distinguish."""
     table = rows(results, "detail")
     if not table:
         return
@@ -115,7 +115,7 @@ def detail(results, output):
             0.1: "0.1", 1: "1", 3: "3", 10: "10", 30: "30", 100: "100"}, log=True)),
         Panel(triangles, Scale("error of position, p95 [mm]", 0.01, 20.0, {
             0.01: "0.01", 0.1: "0.1", 1: "1", 10: "10"}, log=True), legend=True)]
-    panels[0].rule_y(25.0, "a hand tells 25 deg", at=1.8e4)
+    panels[0].rule_y(25.0, "a hand distinguishes 25 deg", at=1.8e4)
     panels[0].rule_y(3.0, "stop here: 3 deg", at=2.5e4)
     for panel, column in zip(panels, ("etheta_p95_deg", "ep_p95_mm")):
         for shape, how, label, colour, style in kinds:
@@ -159,14 +159,14 @@ def nice_scale(title, values):
 
 
 def scene(about, runs, output):
-    """A cross-section with the ways of hand and god-object, beside force against time."""
-    ours, other, surface = runs["ours"], runs["other"], runs["surface"]
-    both = ours + other
-    forces = sorted(r["force_n"] for r in both)
+    """A cross-section with the ways of hand and god-object, and force against time."""
+    ours, other, ball, surface = (runs[run] for run in ("ours", "other", "ball", "surface"))
+    every = ours + other + ball
+    forces = sorted(r["force_n"] for r in every)
     # A hammer's blows may be cut off: what matters is around the rest.
     low, high = forces[len(forces) // 400], forces[-1 - len(forces) // 400]
-    xs = [r["hip_x_mm"] for r in surface] + [r["held_x_mm"] for r in ours]
-    zs = [r["hip_z_mm"] for r in surface + ours]
+    xs = [r["hip_x_mm"] for r in surface] + [r["held_x_mm"] for r in ours + ball]
+    zs = [r["hip_z_mm"] for r in surface + ours] + [r["held_z_mm"] for r in ball]
     width, height = max(xs) - min(xs), max(zs) - min(zs)
     section = Panel(nice_scale("x [mm]", (min(xs) - 0.1 * width, max(xs) + 0.1 * width)),
                     nice_scale("z [mm]", (min(zs) - 0.1 * height, max(zs) + 0.1 * height)),
@@ -174,10 +174,11 @@ def scene(about, runs, output):
     section.line([(r["hip_x_mm"], r["hip_z_mm"]) for r in ours], (170, 170, 170), width=1.5,
                  pen=DASHED)
     section.line([(r["hip_x_mm"], r["hip_z_mm"]) for r in surface], (30, 30, 30), width=3.0)
-    force = Panel(nice_scale("time [s]", [r["time_s"] for r in both]),
+    force = Panel(nice_scale("time [s]", [r["time_s"] for r in every]),
                   nice_scale(f"force along {about['component']} [N]", (low, high)),
                   title=about["title"], legend=True)
     for run, label, colour, thick in ((other, about["other"], OTHER, 2.0),
+                                      (ball, "a tip of 0.5 mm", BALL, 2.0),
                                       (ours, about["ours"], OURS, 2.0)):
         section.line([(r["held_x_mm"], r["held_z_mm"]) for r in run], colour, width=thick)
         force.line([(r["time_s"], r["force_n"]) for r in run], colour, name=label, width=thick)
@@ -189,7 +190,7 @@ def scenes(results, output):
     traces = rows(results, "traces")
     for about in rows(results, "scenes"):
         runs = {run: [r for r in traces if r["scene"] == about["scene"] and r["run"] == run]
-                for run in ("ours", "other", "surface")}
+                for run in ("ours", "other", "ball", "surface")}
         scene(about, runs, output)
 
 
@@ -209,7 +210,91 @@ def ratios(results, output):
     draw([panel], output / "scene-fig3.png", 1000, 300)
 
 
-CHARTS = {f.__name__: f for f in (speed_accuracy, cost, detail, engines, ratios, scenes)}
+STROKED = {  # surface: (label, colour, marker)
+    "fault": ("terrain", (150, 100, 60), SQUARE),
+    "pial": ("cortex", (190, 60, 120), CIRCLE),
+    "aneurysm": ("aneurysm", (200, 60, 50), DIAMOND),
+    "footbones": ("foot bones", (235, 140, 30), DIAMOND),
+    "gearbox": ("gearbox", (120, 120, 40), DIAMOND),
+    "t13": ("thin sheet", (70, 150, 70), DIAMOND),
+    "wing": ("wing", (110, 170, 140), DIAMOND),
+    "sphere": ("sphere", OURS, CIRCLE),
+}
+LEAST_APART = 0.01  # [%], where none is drawn
+
+
+def way(results, output):
+    """(g): what substeps cost and mend, and what a contact else depends on."""
+    table = rows(results, "way")
+    if not table:
+        return
+    shares = {0.01: "none", 0.1: "0.1", 1: "1", 10: "10"}
+    depends = ["500 Hz", "1 kHz", "2 kHz", "4 kHz", "1 um", "55 um", "half"]
+    panels = [
+        Panel(Scale("mean time of a tick", 0.3, 60.0, {1: "1 us", 10: "10 us"}, log=True),
+              Scale("ticks over 1 mm from the slow hand's [%]", LEAST_APART, 20.0, shares, log=True),
+              title="substeps 1 to 16 (lines), equal steps (rings), tips 0.5, 1, 3 mm (crosses)"),
+        Panel(Scale("sampled so often; hand aside; half the triangles", 0.5, 7.5,
+                    {k + 1.0: name for k, name in enumerate(depends)}),
+              Scale("ticks that then lie over 1 mm elsewhere [%]", LEAST_APART, 20.0, shares, log=True),
+              title="one step (dashed), 16 substeps (solid), ball (rings)", legend=True)]
+    for surface, (label, colour, style) in STROKED.items():
+        for speed, pen in ((0.2, SOLID), (0.5, DASHED)):
+            chosen = [r for r in table if r["surface"] == surface and r["speed"] == speed
+                      and r["depth"] == 5.0]
+            of = {method: sorted((r for r in chosen if r["method"] == method),
+                                 key=lambda r: r["number"])
+                  for method in ("substeps", "steps", "rate", "rate in one step", "moved", "detail",
+                                 "ball rate", "ball moved", "ball detail")}
+            at = {method: [(r["mean"], r["apart"]) for r in of[method]]
+                  for method in ("substeps", "steps")}
+            panels[0].line(at["substeps"], colour, pen=pen)
+            panels[0].markers(at["substeps"], colour, size=7.0, style=style)
+            panels[0].markers(at["steps"], colour, size=7.0, style=style, hollow=True)
+            for tip, size in ((0.5, 7.0), (1, 10.0), (3, 14.0)):
+                panels[0].markers([(r["mean"], r["apart"]) for r in chosen
+                                   if r["method"] == f"tip {tip}" and r["number"] == 1.0],
+                                  colour, size=size, style=CROSS)
+            if speed != 0.2 or not of["rate"]:
+                continue
+            for method, line in (("rate", SOLID), ("rate in one step", DASHED)):
+                points = [(k + 1.0, r["apart"]) for k, r in enumerate(of[method])]
+                panels[1].line(points, colour, pen=line)
+                panels[1].markers(points, colour, size=7.0, style=style)
+            panels[1].markers([(5.0 + k, r["apart"]) for k, r in enumerate(of["moved"] + of["detail"])],
+                              colour, size=9.0, style=style)
+            ball = of["ball rate"] + of["ball moved"] + of["ball detail"]
+            panels[1].markers([(k + 1.0, r["apart"]) for k, r in enumerate(ball)], colour, size=9.0,
+                              style=style, hollow=True)
+        if any(r["surface"] == surface for r in table):
+            panels[1].markers([(-1.0, 1.0)], colour, name=label, size=0.1)
+    panels[0].note(0.3, 10.0, "solid: 0.2 m/s, dashed: 0.5 m/s, 5 mm deep", INK, 8, -22)
+    draw(panels, output / "way.png", 1240, 460, (0.5, 0.5))
+
+
+def noise(results, output):
+    """(h): the force on a resting hand from its own noise, by tips."""
+    table = rows(results, "noise")
+    if not table:
+        return
+    tip = Scale("radius of the tip [mm]", -0.3, 3.3, {0: "point", 0.5: "0.5", 1: "1", 3: "3"})
+    panels = [
+        Panel(tip, Scale("standard deviation of the force [mN]", 0.0, 60.0,
+                         {k: str(k) for k in range(0, 61, 10)})),
+        Panel(tip, Scale("gain, 0.58 on a plane: mean (solid), p95 (dashed)", 0.0, 3.0,
+                         {k / 2: f"{k / 2:g}" for k in range(7)}), legend=True)]
+    for surface, (label, colour, style) in {**STROKED, "rough": ("rough ball", INK, SQUARE)}.items():
+        of = [r for r in table if r["surface"] == surface]
+        for panel, column, pen, name in ((panels[0], "deviation", SOLID, " "),
+                                         (panels[1], "gain", SOLID, label),
+                                         (panels[1], "gain_p95", DASHED, " ")):
+            points = [(r["radius"], r[column]) for r in of]
+            panel.line(points, colour, name=name, pen=pen)
+            panel.markers(points, colour, size=6.0, style=style)
+    draw(panels, output / "noise.png", 1160, 400, (0.46, 0.54))
+
+
+CHARTS = {f.__name__: f for f in (speed_accuracy, cost, detail, engines, ratios, scenes, way, noise)}
 
 
 def main():

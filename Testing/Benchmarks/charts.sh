@@ -9,10 +9,10 @@ Usage: sh Testing/Benchmarks/charts.sh [--full] [--draw] [--help]
 
 Runs every method on every surface and every scene of the stability suite, and leaves tables
 (CSV, with machine, compiler and versions) and charts in Testing/Benchmarks/results. Nothing else
-should run on the machine; it takes some three minutes and 4 GB.
+should run on the machine; it takes some ten minutes and 4 GB.
 BUILD=DIR for a build folder other than build/.
 
-  --full   ten times longer strokes: half an hour
+  --full   ten times longer strokes: an hour
   --draw   measure nothing: draw the charts again from the tables that are there
 EOF
 }
@@ -59,6 +59,18 @@ if [ -z "$draw" ]; then
     write_whole "$results/$part.csv" "$table"
   done
   "$build/bin/HapticsSceneTraces" "$results"
+  strokes=8
+  [ -z "$full" ] || strokes=40
+  for part in way noise; do
+    cp "$head" "$table"
+    if [ $part = way ]; then
+      "$build/bin/HapticsWayBenchmark" --surfaces "$surfaces" --only pial,fault,t13,gearbox,sphere \
+        --speeds 0.2,0.5 --depths 5 --strokes $strokes >> "$table"
+    else
+      "$build/bin/HapticsNoiseBenchmark" --surfaces "$surfaces" >> "$table"
+    fi
+    write_whole "$results/$part.csv" "$table"
+  done
 fi
 
 display=

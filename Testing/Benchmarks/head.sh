@@ -1,4 +1,4 @@
-# Sourced by the scripts beside it, which set `root` and `build`.
+# Sourced by the scripts in this folder, which set `root` and `build`.
 
 # Prints one value of the build folder's cache.
 cached()

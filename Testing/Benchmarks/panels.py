@@ -1,4 +1,4 @@
-"""Panels of charts drawn with VTK's own charts (vtkChartXY), several beside each other.
+"""Panels of charts drawn with VTK's own charts (vtkChartXY), several next to each other.
 
 Logarithms are taken here and the ticks are set here, so that a chart looks alike whatever the data.
 """
@@ -28,7 +28,7 @@ from output import write_png  # noqa: E402
 INK = (40, 40, 40)
 GRID = (225, 225, 225)
 SOLID, DASHED = vtkPen.SOLID_LINE, vtkPen.DASH_LINE
-CIRCLE, SQUARE, DIAMOND = 4, 3, 5  # vtkPlotPoints' marker styles
+CROSS, CIRCLE, SQUARE, DIAMOND = 1, 4, 3, 5  # vtkPlotPoints' marker styles
 FONT = 15
 
 

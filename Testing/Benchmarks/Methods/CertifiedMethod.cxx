@@ -7,17 +7,20 @@ namespace
 class CertifiedMethod : public ContactMethod
 {
 public:
-  CertifiedMethod(const SurfaceList& surfaces, int passes)
-    : Touched(surfaces.begin(), surfaces.end())
+  CertifiedMethod(const SurfaceList& surfaces, int passes, double tip)
+    : Surfaces(surfaces.begin(), surfaces.end())
     , Passes(passes)
+    , Radius(tip)
   {
     this->Forget();
   }
   void Place(const Vec3& position) override { this->Point->Place(position); }
   void Forget() override
   {
-    this->Point = std::make_unique<GodObject>(this->Touched);
+    this->Point =
+      std::make_unique<GodObject>(this->Surfaces, this->Radius > 0.0 ? Tip::Ball : Tip::Point);
     this->Point->SetPassLimit(this->Passes);
+    this->Point->SetTipRadius(this->Radius);
   }
   Vec3 Update(const Vec3& hip) override
   {
@@ -27,14 +30,15 @@ public:
   }
 
 private:
-  std::vector<TouchedSurface> Touched;
+  std::vector<TouchedSurface> Surfaces;
   int Passes;
+  double Radius;
   std::unique_ptr<GodObject> Point;
 };
 }
 
-MethodPointer MakeCertified(const SurfaceList& surfaces, int passes)
+MethodPointer MakeCertified(const SurfaceList& surfaces, int passes, double tip)
 {
-  return std::make_unique<CertifiedMethod>(surfaces, passes);
+  return std::make_unique<CertifiedMethod>(surfaces, passes, tip);
 }
 }
