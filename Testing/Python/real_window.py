@@ -57,8 +57,10 @@ class Desktop:
     def __enter__(self):
         read, write = os.pipe()
         screen = "x".join(map(str, self.size)) + "x24"
+        # A server resets itself once its last client is gone, here a first xdotool, and turns away who
+        # comes meanwhile: the window manager.
         self._run(
-            ["Xvfb", "-displayfd", str(write), "-screen", "0", screen, "-nolisten", "tcp"],
+            ["Xvfb", "-noreset", "-displayfd", str(write), "-screen", "0", screen, "-nolisten", "tcp"],
             os.environ, pass_fds=[write],
         )
         os.close(write)
@@ -71,8 +73,13 @@ class Desktop:
         os.close(read)
         self.environment = {**os.environ, "DISPLAY": ":" + number.decode().strip()}
         self.environment.pop("WAYLAND_DISPLAY", None)
-        self._run(["openbox"], self.environment)
-        wait_for(lambda: self.xdo("get_num_desktops", check=False), 60.0, "openbox")
+        openbox = self._run(["openbox"], self.environment)
+
+        def manages():
+            assert openbox.poll() is None, f"openbox ended with {openbox.returncode}"
+            return self.xdo("get_num_desktops", check=False)
+
+        wait_for(manages, 60.0, "openbox")
         return self
 
     def __exit__(self, *_):
