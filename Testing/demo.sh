@@ -69,7 +69,7 @@ esac
 display=
 if [ -z "${DISPLAY:-}" ]; then
   offscreen=--offscreen
-  display='xvfb-run -a -s "-screen 0 1280x1024x24"'
+  display='xvfb-run -a -s "-noreset -screen 0 1280x1024x24"'
   if ! command -v xvfb-run >/dev/null; then
     echo "demo.sh: no display, and xvfb-run is missing: install xvfb and xauth." >&2
     exit 1

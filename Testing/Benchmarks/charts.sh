@@ -75,9 +75,9 @@ fi
 
 display=
 if [ -z "${DISPLAY:-}" ]; then
-  display='xvfb-run -a'
+  display='xvfb-run -a -s "-noreset -screen 0 1280x1024x24"'
   command -v xvfb-run >/dev/null || { echo "No display, and no xvfb-run: install xvfb." >&2; exit 1; }
 fi
 # The Python that VTK's modules are made for.
-$display /usr/bin/python3 "$here/charts.py" "$results" "$results" --readme "$here/README.md"
+eval "$display" /usr/bin/python3 '"$here/charts.py" "$results" "$results"' --readme '"$here/README.md"'
 echo "$results"

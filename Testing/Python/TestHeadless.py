@@ -57,6 +57,25 @@ class Headless(unittest.TestCase):
             with open(file, "rb") as png:
                 size_of(png.read())
 
+    def test_windows_one_after_another_are_drawn(self):
+        script = """
+from vtkhaptics.display import ensure_script_display
+ensure_script_display()
+from vtkmodules.vtkRenderingCore import vtkRenderWindow
+import vtkmodules.vtkRenderingOpenGL2
+for _ in range(30):
+    window = vtkRenderWindow()
+    window.SetSize(50, 50)
+    window.Render()
+    del window  # its connection to the display ends with it
+"""
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "windows.py")
+            with open(path, "w") as file:
+                file.write(script)
+            done = subprocess.run([sys.executable, path], env=HEADLESS, capture_output=True, text=True, timeout=300)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
     def test_what_is_missing_is_said(self):
         if not needs_display():
             self.skipTest("this VTK draws without a display")

@@ -38,4 +38,6 @@ def ensure_display(module, arguments):
             "Install xvfb (Debian: apt-get install xvfb xauth) and try again."
         )
     program = ["-m", module] if module else []
-    os.execv(xvfb, [xvfb, "-a", sys.executable, *program, *arguments])
+    # Without -noreset the server starts anew once a first window is closed, and may turn the next away.
+    server = ["-a", "-s", "-noreset -screen 0 1280x1024x24"]
+    os.execv(xvfb, [xvfb, *server, sys.executable, *program, *arguments])
