@@ -1,5 +1,6 @@
 // A scene whose surface comes in patches.
 #include "../Filters/InPieces.h"
+#include "SceneTestTools.h"
 #include "TraceComparison.h"
 #include "haptics/Filters/PatchCropper.h"
 #include "haptics/Filters/PatchRecord.h"
@@ -24,6 +25,7 @@
 #include "vtkMath.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPlaneSource.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
@@ -317,6 +319,71 @@ TEST(PatchScene, PiecesAreReadInTheBackground)
     << "it has caught up";
   EXPECT_EQ(pieces->ReadsByOwner, first) << "none was read by who updates the scene";
   EXPECT_GT(pieces->ReadsByOthers, 0);
+  EXPECT_EQ(std::string(scene->GetErrorMessage()), "");
+}
+
+/// A wall pushes the hand along a ball to where no patch reaches yet: no lack of room.
+TEST(PatchScene, WhatIsPushedBeyondThePatchWaitsForData)
+{
+  vtkNew<SlowPieces> pieces;
+  vtkNew<vtkHapticPatchSource> source;
+  source->SetSurfaceConnection(pieces->GetOutputPort());
+  source->SetNumberOfPieces(SlowPieces::NumberOfPieces);
+  source->SetPiecesInMemory(1);
+  source->SetPatchRadius(0.005);
+  source->ReadInBackgroundOn();
+  vtkNew<vtkHapticScene> scene;
+  scene->GetSurfaces()->BackgroundBuildingOn();
+  scene->AddSurface(source->GetOutputPort());
+  vtkNew<vtkPlaneSource> plane; // through the ball's axis
+  plane->SetOrigin(0.03, 0.0, -0.03);
+  plane->SetPoint1(0.09, 0.0, -0.03);
+  plane->SetPoint2(0.03, 0.0, 0.03);
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(plane->GetOutputPort());
+  vtkNew<vtkActor> wall;
+  wall->SetMapper(mapper);
+  scene->AddSurface(wall);
+  vtkNew<vtkSimulatedHapticDevice> device;
+  scene->SetDevice(device);
+  vtkHapticReadings* const readings = scene->GetServo()->GetReadings();
+  const auto look = [&](double wallsAngle)
+  {
+    wall->SetOrientation(0.0, 0.0, vtkMath::DegreesFromRadians(wallsAngle));
+    scene->Step(16);
+    EXPECT_FALSE(readings->GetSqueezed()) << wallsAngle;
+    return readings->DescribeForceLimits() == "waiting for data";
+  };
+  constexpr double HandsAngle = 1.35; // in the first quarter
+  device->SetPosition(0.06 * std::cos(HandsAngle), 0.06 * std::sin(HandsAngle), 0.01);
+  do
+  {
+    look(HandsAngle - 0.1);
+    source->FinishReading();
+  } while (scene->GetSurfaces()->IsBuilding() || look(HandsAngle - 0.1));
+  pieces->Close(true);
+  EventCounter squeezes(scene, vtkHapticScene::SqueezeEvent);
+  double angle = HandsAngle - 0.1;
+  for (; angle < HandsAngle + 0.5; angle += 0.02)
+  {
+    look(angle);
+  }
+  ASSERT_TRUE(source->IsReading());
+  EXPECT_TRUE(look(angle));
+  EXPECT_EQ(scene->GetForce()[1], 0.0);
+  pieces->Close(false);
+  int looks = 0;
+  while (look(angle) || scene->GetSurfaces()->IsBuilding())
+  {
+    source->FinishReading();
+    ASSERT_LT(++looks, 100) << "it asks for what is there";
+  }
+  look(angle);
+  EXPECT_TRUE(scene->GetTouching());
+  const double along = 0.06 * std::cos(angle - HandsAngle); // where the wall is nearest to the hand
+  EXPECT_NEAR(scene->GetGodObject()[0], along * std::cos(angle), 1e-6);
+  EXPECT_NEAR(scene->GetGodObject()[1], along * std::sin(angle), 1e-6);
+  EXPECT_EQ(squeezes.Count, 0);
   EXPECT_EQ(std::string(scene->GetErrorMessage()), "");
 }
 

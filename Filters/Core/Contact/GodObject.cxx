@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace haptics
 {
@@ -105,6 +106,12 @@ const Contact& GodObject::Update(const Vec3& hip) noexcept
     result.Penetration = 0.0;
     result.NumberOfConstraints = 0;
     result.Status = UpdateStatus::Squeezed;
+    if (const std::optional<Vector> place = god.Around.UnknownPlace())
+    {
+      result.Status = UpdateStatus::Free;
+      result.AwaitsData = true;
+      result.Position = ToVec3(*place + god.Around.Origin); // for the next patch to reach there
+    }
     return result;
   }
   const Vector displacement = god.Position - goal;

@@ -82,6 +82,19 @@ bool Surroundings::IsKnown(const Vector& place) const
     [&](const WorkingSet& set) { return set.IsKnown(place, this->TipRadius); });
 }
 
+std::optional<Vector> Surroundings::UnknownPlace() const
+{
+  for (std::size_t i = 0; this->HasPatches && i < this->TouchableCount; ++i)
+  {
+    const Vector place = this->Sets[i].Frame().PointToScene(this->Sets[i].LocalPosition());
+    if (!this->IsKnown(place))
+    {
+      return place;
+    }
+  }
+  return std::nullopt;
+}
+
 /// Whether what encloses space encloses another place as it does the god-object's.
 bool Surroundings::IsOnSameSide(const Vector& other)
 {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace haptics
@@ -45,6 +46,9 @@ public:
   /// Of patches: how much of the way to a HIP, and whether a place, is known to all surfaces.
   double KnownPart(const Vector& hip) const;
   bool IsKnown(const Vector& place) const;
+  /// Of a god-object that is split: a place where one surface has its own, but not known to all;
+  /// there may be room. None where surfaces close in.
+  std::optional<Vector> UnknownPlace() const;
   /// Whether one of them has lost its side: WorkingSet::IsAstray().
   bool IsAstray() const
   {
