@@ -13,50 +13,64 @@ import unittest
 LOSS, DELAY, RANKS = float(sys.argv.pop(-3)), float(sys.argv.pop(-3)), int(sys.argv.pop(-3))
 
 import numpy as np
+from HapticChanges import BREATHING_POINTS, TIMES, timed
 from HapticSceneTesting import haptics, look_at, main, trace_arrays, write_points
 from HapticServerTesting import Server
 from paraview import simple
 
 RADIUS = 0.05  # of the ball [m]
 LOOK = 0.016  # between two looks [s]
-SPEED = 0.1  # of the hand [m/s]
 STIFFNESS = 500.0  # [N/m]
 SOFT = 3.3 / 0.1  # [N/s]: the largest force over the soft start's time
 PERIOD = 0.001  # [s]; after a late tick what goes softly goes on as after two
 QUICK = 0.02  # [s]: to connect and to touch the first time takes many ways to the server and back
+BREATH = 0.05  # of its radius: by so much the ball that deforms becomes larger and smaller
+TIME_STEP = 1.0  # between two time steps of that [s]
 
 
-def circling_path(file, seconds):
-    """From above the ball into it by 2 mm, and round and round."""
+def circling_path(file, speed, seconds):
+    """From above the ball into it by 2 mm, and round and round at a speed [m/s]."""
     times = np.arange(0.0, seconds, 0.01)
     radius = RADIUS - 0.002 + 0.02 * np.maximum(0.0, 1.0 - times) ** 2
-    angle = SPEED / RADIUS * times
+    angle = speed / RADIUS * times
     write_points(file, np.array([radius * np.cos(angle), radius * np.sin(angle), 0.0 * times]).T, times)
 
 
 class TestHapticPatchesLive(unittest.TestCase):
+    SPEED = 0.1  # of the hand [m/s]
+    SMALLEST_RADIUS = RADIUS
+    SURFACE_WAY = 0.0  # the most that the surface goes by itself in a tick [m]
+
     def setUp(self):
         self.server = Server(RANKS, min(DELAY, QUICK), with_link=True)
         self.view = simple.CreateView("RenderView")
         self.view.ViewSize = [300, 200]
-        self.ball = simple.Sphere(Radius=RADIUS, ThetaResolution=400, PhiResolution=300)
+        self.ball = self.make_ball()
         self.hand = haptics.scene()
         path = f"TestHapticPatchesLive_{RANKS}_{DELAY}.vtp"
-        circling_path(path, 300.0)
+        circling_path(path, self.SPEED, 300.0)
         self.hand.set(Device=path, Stiffness=STIFFNESS, RecordTrace=0)
         display = self.hand.touch(self.ball, self.view)
         display.PatchThreshold, display.PatchRadius = 0, 0.01
         look_at(self.view)
         self.hand.WorkspaceTransform = np.eye(4).ravel().tolist()
         self.states = []
+        self.begin = time.monotonic()
+
+    def make_ball(self):
+        return simple.Sphere(Radius=RADIUS, ThetaResolution=400, PhiResolution=300)
 
     def tearDown(self):
         simple.Disconnect()
         self.server.stop()
 
+    def before_look(self):
+        pass
+
     def look(self, seconds):
         end = time.monotonic() + seconds
         while time.monotonic() < end:
+            self.before_look()
             self.hand.update()
             self.states.append(self.hand.State)
             time.sleep(LOOK)
@@ -100,16 +114,38 @@ class TestHapticPatchesLive(unittest.TestCase):
         # What the hand's own way does to a spring, and that of a god-object which follows it; the rest comes and goes
         # softly, a force that fades and another one that begins.
         way = np.linalg.norm(np.diff(trace["HapticInterfacePoint"], axis=0), axis=1)
-        beyond = steps - 2.0 * STIFFNESS * way
+        beyond = steps - 2.0 * STIFFNESS * (way + self.SURFACE_WAY)
         ticks = np.diff(trace["Time"]) / PERIOD
         print(f"{RANKS} ranks, {1e3 * DELAY:.0f} ms each way, {100 * LOSS:.0f} % lost: waiting at {100 * waiting:.1f} % "
               f"of {len(self.states)} looks, {touching.sum()} of {len(touching)} ticks touching, largest step "
               f"{steps.max():.3f} N, beyond the hand's own {beyond.max():.3f} N, latest tick after {ticks.max():.0f}, deepest "
               f"{1e3 * (RADIUS - distance.min()):.4f} mm")
         self.assertGreater(touching.sum(), 500)
-        self.assertGreater(distance.min(), RADIUS * (1.0 - 1e-3), "the facets are chords: no leak")
+        self.assertGreater(distance.min(), self.SMALLEST_RADIUS * (1.0 - 1e-3), "the facets are chords: no leak")
         self.assertGreater(force.max(), 0.5)
         self.assertLess(beyond.max(), 2.0 * SOFT * 2.0 * PERIOD)
+
+
+@unittest.skipIf(DELAY > 0.5, "each time step takes several ways to the server and back")
+class TestDeformingPatchesLive(TestHapticPatchesLive):
+    """The same on a ball that an animation deforms, for a slower hand: each version is surveyed anew."""
+
+    SPEED = 0.03
+    SMALLEST_RADIUS = RADIUS * (1.0 - BREATH)
+    # From one time step to the next the ball changes by at most 0.9 of the breath, in no less than the time that a
+    # surface takes for a change; a change that waits goes faster by a quarter.
+    SURFACE_WAY = 1.25 * 0.9 * BREATH * RADIUS / 0.033 * PERIOD
+
+    def make_ball(self):
+        script = BREATHING_POINTS.replace("10.0 + 0.5 *", f"1.0 + {BREATH} *")
+        self.assertNotEqual(script, BREATHING_POINTS)
+        return timed(simple.Sphere(Radius=RADIUS, ThetaResolution=200, PhiResolution=150), script)
+
+    def before_look(self):
+        step = TIMES[int((time.monotonic() - self.begin) / TIME_STEP) % len(TIMES)]
+        animation = simple.GetAnimationScene()
+        if animation.AnimationTime != step:
+            animation.AnimationTime = step
 
 
 if __name__ == "__main__":
