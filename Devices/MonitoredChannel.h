@@ -51,7 +51,7 @@ public:
       this->WriteDevice(asked);
     }
     this->Last.Force = asked;
-    this->Published.Publish(this->Last);
+    this->Snapshots.Publish(this->Last);
   }
 
   void Halt() noexcept final
@@ -70,8 +70,8 @@ public:
   /// What went through last, without force while halted; zeros before the first tick. GUI thread.
   DeviceSnapshot Latest() noexcept
   {
-    this->Published.Update();
-    DeviceSnapshot latest = this->Published.Get();
+    this->Snapshots.Update();
+    DeviceSnapshot latest = this->Snapshots.Get();
     if (this->IsHalted())
     {
       latest.Force = {};
@@ -91,7 +91,7 @@ private:
   std::atomic<bool> Lost{ false };
   std::atomic<bool> Halted{ false };
   DeviceSnapshot Last; // the servo thread's
-  LatestValue<DeviceSnapshot> Published;
+  LatestValue<DeviceSnapshot> Snapshots;
 };
 }
 
