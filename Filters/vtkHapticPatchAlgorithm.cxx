@@ -33,6 +33,8 @@ constexpr double ShareForAnchors = 0.9;
 constexpr int NumberOfAnchors = 4;
 /// Of a region's radius: so far from its line's start are those that nothing may go over.
 constexpr double ShareForQuietAnchors = 0.6;
+/// That may come, one after another, while a patch is asked for.
+constexpr int NumberOfVersions = 3;
 /// Of the surface's diagonal: the radius of the region along a way that has no width.
 constexpr double ThinShare = 1e-9;
 
@@ -323,26 +325,34 @@ void vtkHapticPatchAlgorithm::WriteRecord(const haptics::PatchRegion& region,
   record.WriteTo(output->GetFieldData());
 }
 
-/// The patch of the region, and of a closed surface what it encloses there.
+/// The patch of the region, and of a closed surface what it encloses there: all of one version,
+/// which may go on while it is asked for.
 bool vtkHapticPatchAlgorithm::MakeEnclosedPatch(vtkPolyData* output)
 {
-  if (!this->Survey())
+  for (int versions = 0; versions < NumberOfVersions; ++versions)
   {
-    return false;
+    const vtkTypeUInt64 version = this->Survey() ? this->GetVersion() : 0;
+    const bool isMade = version != 0 && this->MakePatchOfVersion(output);
+    if (this->GetVersion() == version)
+    {
+      return isMade;
+    }
   }
+  return false;
+}
+
+/// False also where another version has come meanwhile: what has been written is of no use then.
+bool vtkHapticPatchAlgorithm::MakePatchOfVersion(vtkPolyData* output)
+{
   WholeInternals& in = *this->Whole;
+  const vtkTypeUInt64 version = this->GetVersion();
   haptics::PatchRegion region = in.Region;
   haptics::PatchEnclosure enclosure;
   const haptics::SurfaceReport report = in.Record->Whole.Report;
   const bool encloses = report.Closed && report.Oriented;
-  if (encloses && in.IsUpToSurface && !this->ReachSurface(region, enclosure))
-  {
-    return false;
-  }
-  const vtkTypeUInt64 version = this->GetVersion();
-  if (!this->Gather(region, Use::Touch, output) ||
-    (encloses && !this->CountEnclosing(region, output, enclosure)) ||
-    this->GetVersion() != version) // the next one is of another surface
+  if ((encloses && in.IsUpToSurface && !this->ReachSurface(region, enclosure)) ||
+    !this->Gather(region, Use::Touch, output) ||
+    (encloses && !this->CountEnclosing(region, output, enclosure)) || this->GetVersion() != version)
   {
     return false;
   }
@@ -523,9 +533,12 @@ int vtkHapticPatchAlgorithm::RequestData(
   }
   vtkNew<vtkPolyData> patch;
   this->MakeEnclosedPatch(patch);
-  if (this->Whole->Last.Patch)
+  // Where that failed the last one stays, of whatever version.
+  const WholeInternals& in = *this->Whole;
+  if (in.Last.Patch || (in.Touched && in.Touched->Last.Patch))
   {
-    vtkPolyData::GetData(outputVector)->ShallowCopy(this->Whole->Last.Patch);
+    vtkPolyData::GetData(outputVector)
+      ->ShallowCopy(in.Last.Patch ? in.Last.Patch : in.Touched->Last.Patch);
   }
   return 1;
 }

@@ -152,6 +152,7 @@ private:
 #ifndef __VTK_WRAP__
   void SetRegion(const haptics::PatchRegion& region, bool isUpToSurface);
   bool MakeEnclosedPatch(vtkPolyData* output);
+  bool MakePatchOfVersion(vtkPolyData* output);
   bool Gather(const haptics::PatchRegion& region, Use use, vtkPolyData* output);
   void DeformFromTouched();
   void WriteRecord(const haptics::PatchRegion& region, const haptics::PatchEnclosure& enclosure,

@@ -154,7 +154,11 @@ void GeometryFollower::FollowHand(const PullSettings& settings, PullReport& repo
 
 void GeometryFollower::Ask(const PatchRequest& request)
 {
-  this->Asked = request;
+  const bool wasLost = std::exchange(this->Asked, request).has_value();
+  if (wasLost)
+  {
+    this->Patches->Modified(); // even the same region is another question
+  }
   const PatchRegion& region = request.Region;
   if (request.IsUpToSurface)
   {

@@ -507,6 +507,9 @@ public:
   vtkTypeMacro(BreathingPatches, vtkHapticPatchAlgorithm);
 
   bool SaysWhereFrom = true; ///< and not, as where the cells are others
+  /// What the next so many crops find in its place, one after another: as where the ranks of a
+  /// server have gone on since they were asked what there is.
+  std::vector<vtkSmartPointer<vtkPolyData>> Overtaking;
   void SetShape(vtkPolyData* shape)
   {
     this->Shape = shape;
@@ -546,6 +549,13 @@ protected:
   bool Crop(const haptics::PatchRegion& region, Use use,
     std::vector<vtkSmartPointer<vtkPolyData>>& parts) override
   {
+    if (!this->Overtaking.empty())
+    {
+      this->Shape = this->Overtaking.front();
+      this->Overtaking.erase(this->Overtaking.begin());
+      this->IsSurveyed = false;
+      this->Survey();
+    }
     parts = { haptics::CropPart(this->Shape, region, {}, nullptr, this->Starts) };
     if (use == Use::Touch)
     {
@@ -622,6 +632,43 @@ TEST(PatchScene, DeformsAsTheWholeSurface)
   std::cout << "largest steps [N]: whole " << wholeStep << ", in patches " << patchStep
             << ", largest distance " << LargestDistance(found, expected) << "\n";
   EXPECT_LT(LargestDistance(found, expected), 1e-9);
+}
+
+/// A patch is of one version, with what belongs to the whole of that; until there is one the last
+/// one stays, and it is asked for again, also where the hand rests.
+TEST(PatchScene, AVersionMayOvertakeTheQuestionForAPatch)
+{
+  for (const std::size_t versions : { 1U, 2U, 3U, 9U })
+  {
+    vtkNew<BreathingPatches> patches;
+    patches->SaysWhereFrom = false;
+    patches->SetPatchRadius(0.01);
+    patches->SetShape(MakeBall(0.05));
+    vtkNew<vtkHapticScene> scene;
+    scene->AddSurface(patches->GetOutputPort());
+    vtkNew<vtkSimulatedHapticDevice> device;
+    scene->SetDevice(device);
+    device->SetPosition(0.055, 0.0, 0.001);
+    scene->Step(100);
+    device->SetPosition(0.048, 0.0, 0.001);
+    scene->Step(200);
+    ASSERT_TRUE(scene->GetTouching());
+    patches->SetShape(MakeBall(0.0502));
+    double radius = 0.0502;
+    for (std::size_t i = 0; i < versions; ++i)
+    {
+      radius += 0.0001;
+      patches->Overtaking.push_back(MakeBall(radius));
+    }
+    for (int look = 0; look < 500; ++look)
+    {
+      scene->Step(16);
+      ASSERT_EQ(std::string(scene->GetErrorMessage()), "") << versions << ", look " << look;
+      ASSERT_TRUE(scene->GetTouching()) << versions << ", look " << look;
+    }
+    EXPECT_TRUE(patches->Overtaking.empty()) << versions;
+    EXPECT_NEAR(scene->GetGodObject()[0], radius, 4e-5) << versions << ": the facets are chords";
+  }
 }
 
 TEST(PatchScene, SaysThatItWaitsForData)
