@@ -126,7 +126,7 @@ TEST_P(DriverSafety, TheForceGoesWhereTheServoAsksAndThePositionComesBack)
       this->Device->GetPosition(position);
       return std::abs(position[2] - Within[2]) < 1e-6;
     }));
-  EXPECT_GT(this->Device->GetNumberOfExchanges(), 20);
+  EXPECT_TRUE(WaitFor([this] { return this->Device->GetNumberOfExchanges() > 20; }));
   this->Servo->Stop();
   EXPECT_TRUE(this->BecomesZero()) << "after the run";
 }

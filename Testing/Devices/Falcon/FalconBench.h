@@ -112,6 +112,18 @@ protected:
         << this->Device->GetStateAsString() << ": " << this->Device->GetStatusMessage();
   }
 
+  /// The same of a device that nobody homes (FalconModel::HomesAfter) until it has been seen to
+  /// wait for that: a state that passes between two updates is not noted.
+  ::testing::AssertionResult IsHomedAndBecomesReady()
+  {
+    this->Device->Open();
+    const bool isSeen = this->RunUntil(vtkHapticDevice::Homing);
+    this->Bus.With(1, [](FalconModel& model) { model.HomesAfter = FalconModel().HomesAfter; });
+    return isSeen && this->RunUntil(vtkHapticDevice::Ready) ? testing::AssertionSuccess()
+                                                            : testing::AssertionFailure()
+        << this->Device->GetStateAsString() << ": " << this->Device->GetStatusMessage();
+  }
+
   /// The fault that the device ended with says `words`; after `remedy`, which they name, it opens
   /// and says nothing more.
   void ExpectRemedy(const std::string& words, const std::function<void()>& remedy)

@@ -47,8 +47,10 @@ FalconModel WithoutFirmware(const FirmwareFile& file, std::vector<Act> script = 
 
 TEST_F(FalconBringUp, GoesThroughItsStatesAndHomes)
 {
-  this->Bus.Plug(1, FalconModel());
-  ASSERT_TRUE(this->BecomesReady());
+  FalconModel unhomed;
+  unhomed.HomesAfter = -1;
+  this->Bus.Plug(1, unhomed);
+  ASSERT_TRUE(this->IsHomedAndBecomesReady());
   EXPECT_EQ(this->Events.States, (std::vector<Text>{ "Opening", "Homing", "Ready" }));
   EXPECT_EQ(this->Events.Errors, 0);
   EXPECT_TRUE(this->Bus.IsDriverDetached()) << "the serial driver holds the interface at first";
@@ -102,9 +104,11 @@ TEST_F(FalconBringUp, WaitsForAHandToHomeItAndSaysSo)
 TEST_F(FalconBringUp, LoadsTheFirmwareWithEveryEchoCompared)
 {
   const FirmwareFile file(3000);
-  this->Bus.Plug(1, WithoutFirmware(file, { { At::Upload, 0, Do::Late, Always } }));
+  FalconModel unhomed = WithoutFirmware(file, { { At::Upload, 0, Do::Late, Always } });
+  unhomed.HomesAfter = -1;
+  this->Bus.Plug(1, unhomed);
   this->Device->SetFirmwareFile(file.Path.c_str());
-  ASSERT_TRUE(this->BecomesReady());
+  ASSERT_TRUE(this->IsHomedAndBecomesReady());
   EXPECT_EQ(
     this->Events.States, (std::vector<Text>{ "Opening", "LoadingFirmware", "Homing", "Ready" }));
   EXPECT_EQ(this->Device->GetFirmwareProgress(), 1.0);

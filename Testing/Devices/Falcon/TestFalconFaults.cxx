@@ -163,9 +163,11 @@ TEST_P(FalconHiccup, IsSurvived)
       return pause != commands.end() &&
         std::find_if(pause, commands.end(), pushes) != commands.end();
     };
-    EXPECT_TRUE(this->Run([&] { return this->Bus.With(1, hasPaused); }, Push))
+    const auto isCounted = [this] { return this->Device->GetNumberOfMissedReplies() > 0; };
+    // A servo that came late may have made a pause before.
+    EXPECT_TRUE(this->Run([&] { return isCounted() && this->Bus.With(1, hasPaused); }, Push))
       << "a packet after a lost reply asks for no force, later ones do again";
-    EXPECT_GE(this->Device->GetNumberOfMissedReplies(), 1);
+    EXPECT_TRUE(isCounted());
   }
   const vtkTypeInt64 enough = this->Device->GetNumberOfExchanges() + 150;
   ASSERT_TRUE(this->Run([&] { return this->Device->GetNumberOfExchanges() > enough; }, Push))
@@ -286,8 +288,8 @@ TEST_F(FalconFaults, LetsGoAtOnceWhenAWatchdogHaltsIt)
   EXPECT_TRUE(this->EndsWithoutForce()) << "ticks do not count before the servo resumes";
   channel->Resume();
   commands = count();
-  ASSERT_TRUE(this->Run([&] { return count() > commands + 10; }, Push));
-  EXPECT_FALSE(this->EndsWithoutForce());
+  EXPECT_TRUE(
+    this->Run([&] { return count() > commands + 10 && !this->EndsWithoutForce(); }, Push));
 }
 
 TEST_F(FalconFaults, SetsThePaceOfTheServo)
