@@ -208,14 +208,15 @@ bool RecordingWriter::Write(const std::vector<RecordedTick>& ticks, std::string&
   }
   const auto ticksIn = [](std::uint64_t bytes)
   { return bytes < HeaderSize ? 0 : (bytes - HeaderSize) / RecordSize; };
+  const bool isWritten = this->File.Write(this->Bytes.data(), this->Bytes.size(), error);
   std::uint64_t bytesLeft = 0;
-  if (!this->File.IsIntact(bytesLeft, error))
+  std::string change;
+  if (!this->File.IsIntact(bytesLeft, change))
   {
     this->NumberOfTicks = ticksIn(bytesLeft);
-    error = "The recording " + error + " Choose a name that no other program uses.";
+    error = "The recording " + change + " Choose a name that no other program uses.";
     return false;
   }
-  const bool isWritten = this->File.Write(this->Bytes.data(), this->Bytes.size(), error);
   this->NumberOfTicks = ticksIn(this->File.GetSize());
   if (!isWritten)
   {

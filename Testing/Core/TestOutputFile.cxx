@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <filesystem>
@@ -191,6 +192,37 @@ TEST_F(OutputFileTest, NoticesWhatOthersDoToIt)
   EXPECT_NE(error.find("replaced"), std::string::npos) << error;
   EXPECT_TRUE(file.Close(error));
   EXPECT_EQ(Text(name), "other");
+}
+
+// Written where the file ended before, it would fill what was cut off with zeros, and nobody would
+// notice.
+TEST_F(OutputFileTest, IsNotWrittenOnAfterAnotherHasCutItOrAddedToIt)
+{
+  const std::string name = this->Path("a");
+  OutputFile file;
+  std::string error;
+  std::uint64_t left = 0;
+  for (const char* const found : { "", "12", "1234567" })
+  {
+    ASSERT_TRUE(file.Open(name, error) && file.Publish(error) && file.Write("12345", 5, error));
+    const std::string text = found;
+    if (text.size() < 5)
+    {
+      fs::resize_file(name, text.size());
+    }
+    else
+    {
+      std::ofstream(name, std::ios::app) << text.substr(5);
+    }
+    EXPECT_FALSE(file.Write("abcde", 5, error)) << found;
+    EXPECT_NE(error.find(std::to_string(text.size()) + " bytes instead of 5"), std::string::npos)
+      << error;
+    EXPECT_EQ(Text(name), text);
+    EXPECT_EQ(file.GetSize(), 5u);
+    EXPECT_FALSE(file.IsIntact(left, error));
+    EXPECT_EQ(left, std::min<std::size_t>(text.size(), 5));
+    EXPECT_TRUE(file.Close(error)) << error;
+  }
 }
 
 TEST_F(OutputFileTest, BeyondTheLimitOnFilesIsAnErrorAndNoSignal)

@@ -82,7 +82,8 @@ int OpenWithoutName(const fs::path& folder, mode_t mode)
 #ifdef O_TMPFILE
   if (access(DescriptorFolder.c_str(), X_OK) == 0) // by which it gets a name
   {
-    return open(folder.empty() ? "." : folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, mode);
+    return open(
+      folder.empty() ? "." : folder.c_str(), O_WRONLY | O_APPEND | O_TMPFILE | O_CLOEXEC, mode);
   }
 #endif
   return -1;
@@ -189,7 +190,8 @@ bool OutputFile::Open(const std::string& fileName, std::string& error)
   {
     const auto create = [this, mode](const char* name)
     {
-      this->Descriptor = open(name, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
+      this->Descriptor =
+        open(name, O_WRONLY | O_APPEND | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
       return this->Descriptor >= 0;
     };
     if (!this->TakePartialName(create))
@@ -232,11 +234,40 @@ bool OutputFile::Write(const void* bytes, std::size_t size, std::string& error)
     {
       return this->Fail(written < 0 ? errno : ENOSPC, error);
     }
+    if (!this->IsAtEnd(written, error))
+    {
+      return false;
+    }
     next += written;
     size -= static_cast<std::size_t>(written);
     this->Size += static_cast<std::uint64_t>(written);
   }
   return true;
+}
+
+/// Whether the bytes just written follow on the ones before; else they are taken back, as long as
+/// they are the last. What is written goes to the end, so that it never fills what another program
+/// has cut off.
+bool OutputFile::IsAtEnd(std::int64_t written, std::string& error)
+{
+  const off_t end = lseek(this->Descriptor, 0, SEEK_CUR);
+  if (end < 0 || static_cast<std::uint64_t>(end) == this->Size + written)
+  {
+    return true;
+  }
+  struct stat own
+  {
+  };
+  const bool isLast = fstat(this->Descriptor, &own) == 0 && own.st_size == end;
+  const bool isTaken = isLast && ftruncate(this->Descriptor, end - written) == 0;
+  error = this->ChangeOf(static_cast<std::uint64_t>(isTaken ? end - written : own.st_size));
+  return false;
+}
+
+std::string OutputFile::ChangeOf(std::uint64_t size) const
+{
+  return this->FileName + " was changed by another program while it was written: it has " +
+    std::to_string(size) + " bytes instead of " + std::to_string(this->Size) + ".";
 }
 
 bool OutputFile::Sync(std::string& error)
@@ -297,8 +328,7 @@ bool OutputFile::Publish(std::string& error)
 
 void OutputFile::Truncate(std::uint64_t size)
 {
-  if (size < this->Size && ftruncate(this->Descriptor, static_cast<off_t>(size)) == 0 &&
-    lseek(this->Descriptor, 0, SEEK_END) >= 0)
+  if (size < this->Size && ftruncate(this->Descriptor, static_cast<off_t>(size)) == 0)
   {
     this->Size = size;
   }
@@ -329,8 +359,7 @@ bool OutputFile::IsIntact(std::uint64_t& bytesLeft, std::string& error) const
   if (size != this->Size)
   {
     bytesLeft = std::min(size, this->Size);
-    error = this->FileName + " was changed by another program while it was written: it has " +
-      std::to_string(size) + " bytes instead of " + std::to_string(this->Size) + ".";
+    error = this->ChangeOf(size);
     return false;
   }
   return true;

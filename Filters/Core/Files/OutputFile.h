@@ -37,7 +37,8 @@ public:
 
   bool Open(const std::string& fileName, std::string& error);
   bool IsOpen() const { return this->Descriptor >= 0; }
-  /// Appends bytes, before or after Publish(). After a failure GetSize() bytes are written.
+  /// Appends bytes, before or after Publish(). After a failure GetSize() bytes are written. It
+  /// fails where another program has cut the file or written to it, which keeps what that has left.
   bool Write(const void* bytes, std::size_t size, std::string& error);
   /// Waits until the disk has what was written.
   bool Sync(std::string& error);
@@ -56,6 +57,9 @@ public:
 
 private:
   bool Fail(int cause, std::string& error);
+  bool IsAtEnd(std::int64_t written, std::string& error);
+  /// What another program has done to a file that has `size` bytes now.
+  std::string ChangeOf(std::uint64_t size) const;
   /// Sets Partial to the first hidden name that `take` takes; else errno says why it does not.
   template <typename Take>
   bool TakePartialName(const Take& take);
