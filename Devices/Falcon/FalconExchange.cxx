@@ -18,6 +18,7 @@ constexpr std::int64_t Period = Millisecond;              // [ns]
 constexpr std::int64_t ReplyTimeout = 20 * Millisecond;   // [ns]; no older position counts
 constexpr std::int64_t QuietTime = 30 * Millisecond;      // [ns]; longer than packets are apart
 constexpr std::int64_t LongestHiccup = 140 * Millisecond; // [ns]; FalconChannel waits a bit longer
+constexpr std::int64_t DoubtTime = LongestHiccup;         // [ns]; a reply later than that is lost
 constexpr int ProbeTries = 5;                             // of ReplyTimeout each
 constexpr int FailuresInARow = 5;                         // 0.1 s without a reply
 constexpr unsigned int FarewellTimeout = 50;              // [ms]
@@ -62,6 +63,7 @@ bool FalconExchange::ReadOnce(FalconReply& reply, std::int64_t rest)
 FalconExchange::Outcome FalconExchange::TryOnce(const FalconCommand& command, FalconReply& reply)
 {
   const FalconPacket packet = Encode(command);
+  this->DropLateReplies();
   const std::int64_t start = MonotonicNow();
   const std::uint64_t malformed = this->Reader.GetNumberOfMalformed();
   bool heard = false;
@@ -105,7 +107,9 @@ FalconExchange::Outcome FalconExchange::TryOnce(const FalconCommand& command, Fa
 }
 
 // Replies have no number, but come in the order of their packets: which is whose is known again
-// once all have come, or none has come for longer than packets were apart.
+// once all have come, or none has come for longer than packets were apart. One that comes even
+// later is looked for before each packet for a while: else all that follow would answer the packet
+// before.
 void FalconExchange::WaitForLateReplies(std::int64_t deadline)
 {
   FalconReply late;
@@ -115,6 +119,7 @@ void FalconExchange::WaitForLateReplies(std::int64_t deadline)
     const std::int64_t rest = std::min(last + QuietTime, deadline) - MonotonicNow();
     if (rest <= 0)
     {
+      this->DoubtUntil = MonotonicNow() + DoubtTime;
       break;
     }
     if (this->ReadOnce(late, rest))
@@ -124,6 +129,14 @@ void FalconExchange::WaitForLateReplies(std::int64_t deadline)
   }
   this->Unanswered = 0;
   this->Reader.Clear();
+}
+
+void FalconExchange::DropLateReplies()
+{
+  FalconReply late;
+  while (MonotonicNow() < this->DoubtUntil && this->ReadOnce(late, Millisecond))
+  {
+  }
 }
 
 bool FalconExchange::IsAnswered()

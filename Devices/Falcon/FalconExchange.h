@@ -38,6 +38,7 @@ private:
   Outcome TryOnce(const FalconCommand& command, FalconReply& reply);
   bool ReadOnce(FalconReply& reply, std::int64_t rest);
   void WaitForLateReplies(std::int64_t deadline);
+  void DropLateReplies();
   FalconReply Exchange(FalconCommand command);
   void WaitForNextTick();
 
@@ -49,7 +50,9 @@ private:
   int Unanswered = 0;         // packets sent whose reply may still come
   std::int64_t Age = 0;       // of the last reply [ns]: since its packet was sent
   std::uint64_t Releases = 0; // times that torques became zero here, not in the servo
-  std::int64_t NextTick = 0;  // [ns] on the steady clock
+  std::int64_t DoubtUntil =
+    0; // [ns] on the steady clock: so long a reply may be of an earlier packet
+  std::int64_t NextTick = 0; // [ns] on the steady clock
 };
 }
 

@@ -140,7 +140,9 @@ void FalconModel::Say(const std::vector<std::uint8_t>& bytes, const Act* act)
   {
     said.insert(said.begin(), { 'x', '<', '\0', '>' });
   }
-  const auto ready = Clock::now() + (what == Do::Late ? this->LateBy : Clock::duration::zero());
+  const bool isLate = what == Do::Late;
+  const auto ready = Clock::now() + (isLate ? this->LateBy : std::chrono::milliseconds(0));
+  this->LateBy += isLate ? this->LaterBy : std::chrono::milliseconds(0);
   const std::size_t size = what == Do::Split ? 7 : ReadSize;
   for (std::size_t i = 0; i < said.size(); i += size)
   {

@@ -66,6 +66,7 @@ struct FalconModel
   std::array<std::int16_t, 3> Encoders{ { 300, 310, 320 } };
   std::uint8_t Buttons = 0;
   std::chrono::milliseconds LateBy{ 2 };
+  std::chrono::milliseconds LaterBy{ 0 }; ///< LateBy grows by it with each late answer
   bool CountsPackets =
     false; ///< at leg 0: FirstCount, and one more with every packet, up to CountTo
   static constexpr std::int16_t FirstCount = 300;

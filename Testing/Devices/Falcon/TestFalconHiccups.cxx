@@ -30,7 +30,8 @@ struct Hiccup
   const char* Name;
   Do What;
   int Times;
-  int LateBy; ///< [ms]
+  int LateBy;      ///< [ms]
+  int LaterBy = 0; ///< [ms], each further reply
 };
 
 void PrintTo(const Hiccup& hiccup, std::ostream* os)
@@ -100,6 +101,7 @@ protected:
       [&](FalconModel& model)
       {
         model.LateBy = std::chrono::milliseconds(hiccup.LateBy);
+        model.LaterBy = std::chrono::milliseconds(hiccup.LaterBy);
         model.Script = { { At::Serve, model.Served, hiccup.What, hiccup.Times } };
         return model.Commands.size();
       });
@@ -191,6 +193,7 @@ const Hiccup ShortHiccups[] = {
   { "AReply25msLate", Do::Late, 1, 25 },
   { "AReply50msLate", Do::Late, 1, 50 },
   { "TwoReplies25msLate", Do::Late, 2, 25 },
+  { "AReply80msLateAfterOneOf25ms", Do::Late, 2, 25, 55 }, // nothing comes between them for long
 };
 // clang-format on
 
