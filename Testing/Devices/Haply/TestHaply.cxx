@@ -251,6 +251,8 @@ TEST_F(Haply, ASecondClientGetsTheErrorThatItIsInUse)
   EXPECT_FALSE(WaitUntilOpen(second));
   EXPECT_TRUE(Says(second->GetErrorMessage(), "in use by another program"));
   EXPECT_TRUE(this->Exchange()) << "the first goes on";
+  this->Device->Update();
+  EXPECT_STREQ(this->Device->GetErrorMessage(), "");
 }
 
 TEST_F(Haply, ALostStateIsReplacedByZeroAndItGoesOn)
