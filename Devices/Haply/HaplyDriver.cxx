@@ -20,7 +20,9 @@ constexpr milliseconds WaitingPeriod{ 20 }; // while it is not calibrated
 constexpr milliseconds HelloTimeout{ 500 };
 constexpr milliseconds StateTimeout{ 20 }; // later states are late
 constexpr milliseconds LongestSilence{ 200 };
-constexpr milliseconds LostTime{ 30 }; // a state that is later than that is lost
+constexpr milliseconds LostTime{ 30 }; // a state that is later than that is taken for lost
+constexpr milliseconds DoubtTime{ LongestSilence }; // so long it may come all the same
+constexpr milliseconds DropTimeout{ 1 };
 constexpr milliseconds FarewellTimeout{ 50 };
 constexpr int MostDamaged = 5;
 constexpr const char* Profile = "vtk-haptics";
@@ -211,10 +213,21 @@ const HaplyDevice& HaplyDriver::Find() const
   return *device;
 }
 
+/// Drops states that CatchUp() did not wait for: else each one later would answer the message
+/// before.
+void HaplyDriver::DropLateStates()
+{
+  std::string_view text;
+  while (Clock::now() < this->DoubtUntil && this->Socket.Receive(text, Clock::now() + DropTimeout))
+  {
+  }
+}
+
 /// Sends a force and waits for the state that answers it. False where none came in time, or what
 /// came is none.
 bool HaplyDriver::TryOnce(const std::array<double, 3>& force, Clock::time_point deadline)
 {
+  this->DropLateStates();
   HaplyMessage::WriteForce(
     this->Id, force, this->Permutation, this->Version.HasVectors(), nullptr, this->Message);
   this->Socket.Send(this->Message);
@@ -269,6 +282,7 @@ void HaplyDriver::CatchUp(DriverContext& context)
     else if (hasState)
     {
       this->Unanswered = 0; // the rest is lost
+      this->DoubtUntil = Clock::now() + DoubtTime;
     }
   }
 }

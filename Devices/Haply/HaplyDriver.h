@@ -40,6 +40,7 @@ private:
   void WaitUntilCalibrated(DriverContext& context);
   bool TryOnce(const std::array<double, 3>& force, HaplySocket::Clock::time_point deadline);
   void CatchUp(DriverContext& context);
+  void DropLateStates();
   void Check() const;
 
   const std::string WantedId;
@@ -48,9 +49,10 @@ private:
   HaplyState State;
   std::string Id;
   std::string Permutation;
-  std::string Message; // of which the memory is used again
-  int Unanswered = 0;  // messages sent whose state has not come
-  int Damaged = 0;     // messages in a row that were no state
+  std::string Message;                       // of which the memory is used again
+  int Unanswered = 0;                        // messages sent whose state has not come
+  HaplySocket::Clock::time_point DoubtUntil; // till then a state may be of an earlier message
+  int Damaged = 0;                           // messages in a row that were no state
   bool HasSentForce = false;
 };
 }

@@ -144,7 +144,7 @@ void FakeHaplyService::Talk(std::size_t number)
       stream.read(message);
       ++this->Messages;
       this->Take(beast::buffers_to_string(message.data()), session);
-      if (const int delay = this->Delay)
+      if (const int delay = this->NextDelay())
       {
         std::this_thread::sleep_for(std::chrono::milliseconds(delay));
       }
@@ -173,9 +173,25 @@ void FakeHaplyService::Talk(std::size_t number)
   socket->shutdown(tcp::socket::shutdown_both, ignored);
 }
 
+int FakeHaplyService::NextDelay()
+{
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  int delay = this->Delay;
+  if (!this->Delays.empty())
+  {
+    delay = this->Delays.front();
+    this->Delays.erase(this->Delays.begin());
+  }
+  return delay;
+}
+
 std::string FakeHaplyService::State(bool isFull, int session)
 {
   const std::lock_guard<std::mutex> lock(this->Mutex);
+  if (this->Counts)
+  {
+    this->Devices[0].Position[0] = MessageStep * this->Messages;
+  }
   nlohmann::json root;
   root["session_id"] = session;
   root["inverse3"] = nlohmann::json::array();

@@ -53,6 +53,9 @@ public:
   std::atomic<int> Swallowed{ 0 };   ///< answers that are still to be left out
   std::atomic<int> Damaged{ 0 };     ///< answers that are still to be damaged
   std::atomic<int> Delay{ 0 };       ///< of each answer [ms]
+  std::vector<int> Delays;           ///< of the next ones instead [ms]; in With()
+  std::atomic<bool> Counts{ false }; ///< how many came: the first coordinate, in MessageStep
+  static constexpr double MessageStep = 1e-6; ///< [m]
   std::atomic<bool> HasGrip{ true };
   std::atomic<unsigned int> Buttons{ 0 };
   std::atomic<int> Messages{ 0 }; ///< that came
@@ -65,6 +68,7 @@ private:
 
   void Accept();
   void Talk(std::size_t number);
+  int NextDelay();
   std::string State(bool isFull, int session);
   void Take(const std::string& text, int session);
 

@@ -5,6 +5,11 @@
 #include "vtkHaplyHapticDevice.h"
 #include "vtkStringArray.h"
 
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <thread>
+
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -273,6 +278,36 @@ TEST_F(Haply, ALostStateIsReplacedByZeroAndItGoesOn)
       EXPECT_TRUE(this->Exchange());
       return service.Swallowed == 0 && service.GetForce()[2] > 0.9;
     }));
+}
+
+// One that is behind stays behind: the least of many lags counts, whatever else the machine does.
+TEST_F(Haply, AStateThatComesAfterAllWaitingLeavesNoOlderOnes)
+{
+  FakeHaplyService service;
+  service.Counts = true;
+  this->Push(service);
+  const vtkTypeInt64 before = this->Device->GetNumberOfReleases();
+  service.With([&service](auto&) { service.Delays = { 25, 60 }; });
+  EXPECT_TRUE(WaitFor(
+    [&]
+    {
+      EXPECT_TRUE(this->Exchange());
+      bool isOver = false;
+      service.With([&](auto&) { isOver = service.Delays.empty(); });
+      return isOver && this->Device->GetNumberOfReleases() > before && service.GetForce()[2] > 0.9;
+    }));
+  int least = 1000;
+  for (int i = 0; i < 300; ++i)
+  {
+    ASSERT_TRUE(this->Exchange());
+    std::this_thread::sleep_for(std::chrono::microseconds(300)); // what was sent has come
+    double position[3];
+    this->Device->GetPosition(position);
+    const long seen = std::lround(position[0] / FakeHaplyService::MessageStep);
+    // Another message may have come since.
+    least = std::min(least, std::max(0, service.Messages - static_cast<int>(seen)));
+  }
+  EXPECT_EQ(least, 0) << "messages";
 }
 
 TEST_F(Haply, ADamagedStateGivesZeroAndManyEndIt)
