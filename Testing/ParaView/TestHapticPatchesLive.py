@@ -56,6 +56,7 @@ class TestHapticPatchesLive(unittest.TestCase):
         self.hand.WorkspaceTransform = np.eye(4).ravel().tolist()
         self.states = []
         self.begin = time.monotonic()
+        self.has_server = True
 
     def make_ball(self):
         return simple.Sphere(Radius=RADIUS, ThetaResolution=400, PhiResolution=300)
@@ -97,6 +98,7 @@ class TestHapticPatchesLive(unittest.TestCase):
         # A rank of the server ends while the hand is on the ball.
         scene, shown = hand.vtk, hand.proxy.GetClientSideObject()
         reported = io.StringIO()
+        self.has_server = False
         self.server.end_a_rank()
         with contextlib.redirect_stderr(reported):
             with contextlib.suppress(Exception):  # ParaView reports it in one way or another
@@ -144,7 +146,8 @@ class TestDeformingPatchesLive(TestHapticPatchesLive):
     def before_look(self):
         step = TIMES[int((time.monotonic() - self.begin) / TIME_STEP) % len(TIMES)]
         animation = simple.GetAnimationScene()
-        if animation.AnimationTime != step:
+        # ParaView 6.1 crashes where an animation goes on without its server, with no plugin too.
+        if self.has_server and animation.AnimationTime != step:
             animation.AnimationTime = step
 
 
