@@ -122,7 +122,7 @@ class TestHapticPatchesLive(unittest.TestCase):
               f"of {len(self.states)} looks, {touching.sum()} of {len(touching)} ticks touching, largest step "
               f"{steps.max():.3f} N, beyond the hand's own {beyond.max():.3f} N, latest tick after {ticks.max():.0f}, deepest "
               f"{1e3 * (RADIUS - distance.min()):.4f} mm")
-        self.assertGreater(touching.sum(), 500)
+        self.assertGreater(touching.sum(), 100)
         self.assertGreater(distance.min(), self.SMALLEST_RADIUS * (1.0 - 1e-3), "the facets are chords: no leak")
         self.assertGreater(force.max(), 0.5)
         self.assertLess(beyond.max(), 2.0 * SOFT * 2.0 * PERIOD)
