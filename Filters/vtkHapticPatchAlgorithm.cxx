@@ -534,11 +534,9 @@ int vtkHapticPatchAlgorithm::RequestData(
   vtkNew<vtkPolyData> patch;
   this->MakeEnclosedPatch(patch);
   // Where that failed the last one stays, of whatever version.
-  const WholeInternals& in = *this->Whole;
-  if (in.Last.Patch || (in.Touched && in.Touched->Last.Patch))
+  if (this->Whole->Touched)
   {
-    vtkPolyData::GetData(outputVector)
-      ->ShallowCopy(in.Last.Patch ? in.Last.Patch : in.Touched->Last.Patch);
+    vtkPolyData::GetData(outputVector)->ShallowCopy(this->Whole->Touched->Last.Patch);
   }
   return 1;
 }

@@ -47,12 +47,11 @@ private:
   FalconPacketReader Reader;
   FalconUsb::Transfer Out;
   FalconUsb::Transfer In;
-  int Unanswered = 0;         // packets sent whose reply may still come
-  std::int64_t Age = 0;       // of the last reply [ns]: since its packet was sent
-  std::uint64_t Releases = 0; // times that torques became zero here, not in the servo
-  std::int64_t DoubtUntil =
-    0; // [ns] on the steady clock: so long a reply may be of an earlier packet
-  std::int64_t NextTick = 0; // [ns] on the steady clock
+  int Unanswered = 0;          // packets sent whose reply may still come
+  std::int64_t Age = 0;        // of the last reply [ns]: since its packet was sent
+  std::uint64_t Releases = 0;  // times that torques became zero here, not in the servo
+  std::int64_t DoubtUntil = 0; // [ns] on the steady clock; so long late replies may come
+  std::int64_t NextTick = 0;   // [ns] on the steady clock
 };
 }
 

@@ -262,19 +262,25 @@ private:
 };
 vtkStandardNewMacro(SlowPieces);
 
-/// The hand goes on, and so does who updates the scene, while a piece is read.
-TEST(PatchScene, PiecesAreReadInTheBackground)
+/// Adds patches of them to a scene, where both read and build in the background.
+void AddInBackground(vtkHapticScene* scene, vtkHapticPatchSource* source, SlowPieces* pieces)
 {
-  vtkNew<SlowPieces> pieces;
-  vtkNew<vtkHapticPatchSource> source;
   source->SetSurfaceConnection(pieces->GetOutputPort());
   source->SetNumberOfPieces(SlowPieces::NumberOfPieces);
   source->SetPiecesInMemory(1);
   source->SetPatchRadius(0.005);
   source->ReadInBackgroundOn();
-  vtkNew<vtkHapticScene> scene;
   scene->GetSurfaces()->BackgroundBuildingOn();
   scene->AddSurface(source->GetOutputPort());
+}
+
+/// The hand goes on, and so does who updates the scene, while a piece is read.
+TEST(PatchScene, PiecesAreReadInTheBackground)
+{
+  vtkNew<SlowPieces> pieces;
+  vtkNew<vtkHapticPatchSource> source;
+  vtkNew<vtkHapticScene> scene;
+  AddInBackground(scene, source, pieces);
   vtkNew<vtkSimulatedHapticDevice> device;
   scene->SetDevice(device);
   const auto goTo = [&](double angle, double radius)
@@ -327,14 +333,8 @@ TEST(PatchScene, WhatIsPushedBeyondThePatchWaitsForData)
 {
   vtkNew<SlowPieces> pieces;
   vtkNew<vtkHapticPatchSource> source;
-  source->SetSurfaceConnection(pieces->GetOutputPort());
-  source->SetNumberOfPieces(SlowPieces::NumberOfPieces);
-  source->SetPiecesInMemory(1);
-  source->SetPatchRadius(0.005);
-  source->ReadInBackgroundOn();
   vtkNew<vtkHapticScene> scene;
-  scene->GetSurfaces()->BackgroundBuildingOn();
-  scene->AddSurface(source->GetOutputPort());
+  AddInBackground(scene, source, pieces);
   vtkNew<vtkPlaneSource> plane; // through the ball's axis
   plane->SetOrigin(0.03, 0.0, -0.03);
   plane->SetPoint1(0.09, 0.0, -0.03);
