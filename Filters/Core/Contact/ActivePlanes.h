@@ -123,6 +123,8 @@ public:
   }
   ///@}
   bool IsEmpty() const { return this->Count == 0; }
+  /// Whether each of the planes holds the last nearest point.
+  bool DoAllSupport() const { return this->Count == this->NumberOfSupports; }
   bool Has(const FacetId& facet) const;
   /// Whether what comes along one of the planes, other than that of `facet`, passes over a point.
   bool PassesOver(const Vector& point, const FacetId& facet) const;

@@ -79,7 +79,7 @@ void FacetTable::Clear(const Vector& centre)
   this->Middle = centre;
   this->Count = 0;
   this->LastTouched = -1;
-  this->HasThin = false;
+  this->HasThinFacets = false;
   this->ShortReach = -1.0;
 }
 
@@ -124,7 +124,7 @@ bool FacetTable::TakeOver(const FacetTable& previous)
   this->IsFromMeasured = previous.IsFromMeasured;
   this->IsToMeasured = previous.IsToMeasured;
   this->IsToClear = previous.IsToClear;
-  this->HasThin = previous.HasThin;
+  this->HasThinFacets = previous.HasThinFacets;
   this->LastTouched = previous.LastTouched;
   this->Count = count;
   return true;
@@ -242,7 +242,7 @@ bool FacetTable::FillThin(std::int32_t i, const FacetBatch::Question& question)
   {
     this->Widths[i] =
       this->IsSeam(this->Triangles[i], facet, this->Clearances[i]) ? Width::Seam : Width::Wire;
-    this->HasThin = true;
+    this->HasThinFacets = true;
     this->Errors[i] = HUGE_VAL; // that of the triangle's plane, which is not known here
   }
   return true;
@@ -273,7 +273,7 @@ void FacetTable::MeasureTarget(const Vector& to)
 
 void FacetTable::TurnToPosition()
 {
-  if (this->HasThin)
+  if (this->HasThinFacets)
   {
     this->TurnThin();
   }

@@ -49,6 +49,8 @@ public:
     this->From = position;
     this->ShortReach = -1.0;
   }
+  /// Whether there are facets that are met as lines, or not at all.
+  bool HasThin() const { return this->HasThinFacets; }
   bool IsPositionMeasured() const { return this->IsFromMeasured; }
   void MeasurePosition();
   ///@}
@@ -179,7 +181,7 @@ private:
   bool IsFromMeasured = false; ///< Distances hold for From
   bool IsToMeasured = false;   ///< TargetDistances hold for To
   bool IsToClear = false;
-  bool HasThin = false;
+  bool HasThinFacets = false;
   std::int32_t Count = 0;
   std::int32_t LastTouched = -1; ///< by a motion that was not clear
   std::vector<std::int32_t> Triangles;

@@ -57,8 +57,11 @@ bool GodObjectState::MoveTowards(const Vector& target)
 void GodObjectState::MoveTo(const Vector& target)
 {
   this->Around.MoveSets();
+  if (target != this->Position || !this->Active.DoAllSupport())
+  {
+    this->Active.SetKnownOver(false);
+  }
   this->Position = target;
-  this->Active.SetKnownOver(false);
   this->Way[this->WaySize++] = ToVec3(target);
 }
 

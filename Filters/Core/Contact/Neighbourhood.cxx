@@ -112,6 +112,18 @@ bool Neighbourhood::PassesThroughNothing(const Vector& to)
   return isEmpty;
 }
 
+bool Neighbourhood::GoesNowhere(const Vector& to)
+{
+  // The distance from a thin facet is another one, by rounding, as position and as target.
+  const bool isNowhere =
+    to == this->Table.Position() && this->HasBall() && !this->Table.HasThin() && this->IsInBall(to);
+  if (isNowhere)
+  {
+    this->Table.SetTarget(to);
+  }
+  return isNowhere;
+}
+
 bool Neighbourhood::GatherBall(WorkBudget& budget)
 {
   this->Forget();
@@ -286,7 +298,7 @@ void Neighbourhood::Move()
   {
     this->Place(this->Table.Target());
   }
-  else if (this->Table.MoveToTarget())
+  else if (this->Table.Target() != this->Table.Position() && this->Table.MoveToTarget())
   {
     this->GrowToPlanes();
   }

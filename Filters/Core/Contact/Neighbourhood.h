@@ -82,6 +82,9 @@ public:
   /// Whether a motion stays in the empty ball: then nothing has to be measured for it. It is the
   /// target then.
   bool PassesThroughNothing(const Vector& to);
+  /// Whether a motion ends where it begins, among facets that are known, and so meets none. It is
+  /// the target then.
+  bool GoesNowhere(const Vector& to);
 
   ///@{
   /// False where the budget ends first, or one place has more triangles than fit.

@@ -151,14 +151,23 @@ void PointWalk::LookAhead(const Vector& hip)
   {
     return;
   }
-  for (int i = 0; i < size; ++i)
+  const auto standsInWay = [&](const ActivePlane& plane)
   {
-    const ActivePlane& plane = this->God.Active.Support(i);
     const bool isNew = std::find(this->HeldBefore.begin(), this->HeldBefore.end(), plane.Facet) ==
       this->HeldBefore.end();
-    if (this->God.Around.Sets[plane.Facet.Surface].StandsInWay(plane, hip, isNew))
+    return this->God.Around.Sets[plane.Facet.Surface].StandsInWay(plane, hip, isNew);
+  };
+  // First that which was in the way before: most often it still is.
+  for (const bool isAsked : { true, false })
+  {
+    for (int i = 0; i < size; ++i)
     {
-      return;
+      const ActivePlane& plane = this->God.Active.Support(i);
+      if ((plane.Facet == this->InTheWay) == isAsked && standsInWay(plane))
+      {
+        this->InTheWay = plane.Facet;
+        return;
+      }
     }
   }
   NarrowGap gap(this->God.Position, hip);

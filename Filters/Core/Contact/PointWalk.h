@@ -34,6 +34,7 @@ private:
   WayChange& Change;
   PlaneRelease& Planes;
   std::array<FacetId, 3> HeldBefore; ///< this update
+  FacetId InTheWay;                  ///< when it was last looked ahead
 };
 }
 

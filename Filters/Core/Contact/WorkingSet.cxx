@@ -167,7 +167,7 @@ bool WorkingSet::FindFirstHit(
   {
     return this->FindSwept(to, budget, hit);
   }
-  if (this->Near.PassesThroughNothing(to))
+  if (this->Near.GoesNowhere(to) || this->Near.PassesThroughNothing(to))
   {
     return true;
   }
@@ -430,7 +430,7 @@ bool WorkingSet::IsClear(const Vector& target)
   {
     return this->IsSweepClear && to == this->Facets().Target();
   }
-  if (this->Near.PassesThroughNothing(to))
+  if (this->Near.GoesNowhere(to) || this->Near.PassesThroughNothing(to))
   {
     return true;
   }
