@@ -13,6 +13,34 @@ namespace
 constexpr double Parallel = 1e-24;
 /// A god-object that keeps this share of the clearance, or more, lacks what rounding has worn down.
 constexpr double WornHeight = 0.9375;
+/// More than rounding of any point that is worked out here, as a share of the longest way.
+constexpr double ShareOfWay = 0x1p-24;
+
+/// Whether one to three planes push so much in the point y nearest to a wish on all of them that
+/// the nearest point z on fewer, or none, lies behind one of the others, farther than `slack`.
+///
+/// With unit normals n, multipliers m and what z lacks of the others, d, the rule of Pythagoras for
+/// wish, z and y says that |z - y|^2 is the sum of m d; and z - y is the part of the sum of m n
+/// along what z is on. So |z - y|^2 >= (max m)^2 V, where V is 1, the squared sine between two
+/// planes or the squared volume that three normals span, and some d >= (max m) V / 3.
+bool DoAllPush(const std::array<Plane<double>, ActivePlanes::Capacity>& planes, int count,
+  const double m[3], double slack)
+{
+  // Rounding grows as V falls; from here on it is far below any slack.
+  constexpr double leastVolume = 0x1p-10;
+  if (count == 1)
+  {
+    return m[0] > 4.0 * slack;
+  }
+  const double* const a = planes[0].Normal;
+  const double* const b = planes[1].Normal;
+  const double line[3] = { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+    a[0] * b[1] - a[1] * b[0] };
+  const double spanned = Dot(line, count == 2 ? line : planes[2].Normal);
+  const double volume = count == 2 ? spanned : spanned * spanned;
+  const double least = std::min({ m[0], m[1], m[count - 1] });
+  return volume > leastVolume && least * volume > 4.0 * slack;
+}
 }
 
 void ActivePlanes::Clear()
@@ -90,6 +118,8 @@ bool ActivePlanes::Solve(const Vector& wish, bool raise, const Vector& from, Vec
 {
   // Relative to `from`, where the numbers are small and keep their digits.
   std::array<Plane<double>, Capacity> planes;
+  double longest = std::abs(wish.x) + std::abs(wish.y) + std::abs(wish.z);
+  double widest = 0.0;
   for (int i = 0; i < this->Count; ++i)
   {
     const ActivePlane& plane = this->Planes[i];
@@ -98,6 +128,8 @@ bool ActivePlanes::Solve(const Vector& wish, bool raise, const Vector& from, Vec
       raise && (height < 0.5 * plane.Clearance || height > WornHeight * plane.Clearance);
     planes[i] = { { plane.Normal.x, plane.Normal.y, plane.Normal.z },
       lift ? plane.Clearance - height : std::min(plane.Clearance - height, 0.0) };
+    longest = std::max(longest, std::abs(height));
+    widest = std::max(widest, plane.Clearance);
   }
   const auto keepsAll = [&](const double y[3])
   {
@@ -113,18 +145,12 @@ bool ActivePlanes::Solve(const Vector& wish, bool raise, const Vector& from, Vec
     return true;
   };
 
-  // Every equality solution of up to three planes is a candidate. One that keeps all planes and
-  // pulls on none (no multiplier is negative) is the nearest, as the problem is convex; where
-  // rounding leaves no such candidate, the nearest of those that keep all planes is taken.
-  double best = HUGE_VAL;
-  this->NumberOfSupports = 0;
-  const auto isNearest = [&](const std::array<int, 3>& supports, int size)
+  // The nearest point on some of the planes, and how much each pushes.
+  const auto project = [&](const std::array<int, 3>& supports, int size, double y[3], double m[3])
   {
-    double y[3] = { wish.x, wish.y, wish.z };
-    double multipliers[3];
     const Plane<double>* const chosen[3] = { &planes[supports[0]], &planes[supports[1]],
       &planes[supports[2]] };
-    if (!ProjectOnto(chosen, size, Parallel, y, multipliers))
+    if (!ProjectOnto(chosen, size, Parallel, y, m))
     {
       return false;
     }
@@ -136,10 +162,40 @@ bool ActivePlanes::Solve(const Vector& wish, bool raise, const Vector& from, Vec
       ProjectOnto(chosen, size, Parallel, y, corrections);
       for (int i = 0; i < size; ++i)
       {
-        multipliers[i] += corrections[i];
+        m[i] += corrections[i];
       }
     }
-    if (!keepsAll(y))
+    return true;
+  };
+
+  // Where all planes push, and none only a little, no fewer can: see DoAllPush(). So it is in
+  // corners, from one update to the next.
+  if (this->Count >= 1 && this->Count <= 3)
+  {
+    const double slack = widest + ShareOfWay * longest;
+    const std::array<int, 3> all{ 0, this->Count > 1, this->Count - 1 };
+    double y[3] = { wish.x, wish.y, wish.z };
+    double multipliers[3];
+    if (project(all, this->Count, y, multipliers) &&
+      DoAllPush(planes, this->Count, multipliers, slack) && keepsAll(y))
+    {
+      nearest = { y[0], y[1], y[2] };
+      this->Supports = all;
+      this->NumberOfSupports = this->Count;
+      return true;
+    }
+  }
+
+  // Every equality solution of up to three planes is a candidate. One that keeps all planes and
+  // pulls on none (no multiplier is negative) is the nearest, as the problem is convex; where
+  // rounding leaves no such candidate, the nearest of those that keep all planes is taken.
+  double best = HUGE_VAL;
+  this->NumberOfSupports = 0;
+  const auto isNearest = [&](const std::array<int, 3>& supports, int size)
+  {
+    double y[3] = { wish.x, wish.y, wish.z };
+    double multipliers[3];
+    if (!project(supports, size, y, multipliers) || !keepsAll(y))
     {
       return false;
     }
