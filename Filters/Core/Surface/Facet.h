@@ -131,31 +131,66 @@ inline Vector NearestOnEdges(const Vector& a, const Vector& b, const Vector& c, 
   return nearest;
 }
 
-/// How x, projected on a triangle's plane, lies to one of its edges.
+/// How x, projected on a triangle's plane, lies to one of its edges, or to several side by side.
+template <class Real>
 struct EdgeSide
 {
-  double Inward; ///< distance from the edge, times the edge's length; negative beyond it
-  double SquaredLength;
+  Real Inward; ///< distance from the edge, times the edge's length; negative beyond it
+  Real SquaredLength;
 
   /// `normal`: the triangle's, by the order of its corners.
-  EdgeSide(const Vector& normal, const Vector& from, const Vector& to, const Vector& x)
-    : Inward(glm::dot(glm::cross(normal, to - from), x - from))
-    , SquaredLength(haptics::SquaredLength(to - from))
+  EdgeSide(const Vector& normal, const Real& fromX, const Real& fromY, const Real& fromZ,
+    const Real& toX, const Real& toY, const Real& toZ, const Vector& x)
+  {
+    const Real edgeX = toX - fromX;
+    const Real edgeY = toY - fromY;
+    const Real edgeZ = toZ - fromZ;
+    this->Inward = (normal.y * edgeZ - edgeY * normal.z) * (x.x - fromX) +
+      (normal.z * edgeX - edgeZ * normal.x) * (x.y - fromY) +
+      (normal.x * edgeY - edgeX * normal.y) * (x.z - fromZ);
+    this->SquaredLength = edgeX * edgeX + edgeY * edgeY + edgeZ * edgeZ;
+  }
+  auto IsInside(double own) const
+  {
+    return (this->Inward > 0.0) & (this->Inward * this->Inward > own * own * this->SquaredLength);
+  }
+};
+
+/// The same for its edges ab, bc and ca.
+class EdgeSides
+{
+public:
+  EdgeSides(
+    const Vector& normal, const Vector& a, const Vector& b, const Vector& c, const Vector& x)
+    : First(normal, Two{ a.x, b.x }, Two{ a.y, b.y }, Two{ a.z, b.z }, Two{ b.x, c.x },
+        Two{ b.y, c.y }, Two{ b.z, c.z }, x)
+    , Last(normal, c.x, c.y, c.z, a.x, a.y, a.z, x)
   {
   }
-  bool IsNear(double width) const
+  double Inward(int k) const { return k < 2 ? this->First.Inward[k] : this->Last.Inward; }
+  bool IsNear(int k, double width) const
   {
-    return this->Inward * this->Inward <= width * width * this->SquaredLength;
+    const double squared = k < 2 ? this->First.SquaredLength[k] : this->Last.SquaredLength;
+    return this->Inward(k) * this->Inward(k) <= width * width * squared;
   }
-  bool IsInside(double own) const { return this->Inward > 0.0 && !this->IsNear(own); }
+  /// On the inner side of all of them, and not near any.
+  bool IsInside(double own) const
+  {
+    const auto areFirst = this->First.IsInside(own);
+    return (areFirst[0] & areFirst[1]) != 0 && this->Last.IsInside(own);
+  }
+
+private:
+  using Two = double __attribute__((vector_size(16)));
+  EdgeSide<Two> First;
+  EdgeSide<double> Last;
 };
 
 /// Whether CoverageOf() is Coverage::Inside.
 inline bool IsInside(const Vector& normal, const Vector& a, const Vector& b, const Vector& c,
   const Vector& x, double own)
 {
-  return EdgeSide(normal, a, b, x).IsInside(own) && EdgeSide(normal, b, c, x).IsInside(own) &&
-    EdgeSide(normal, c, a, x).IsInside(own);
+  return EdgeSides(normal, a, b, c, x).IsInside(own);
 }
 
 /// How x, projected on the triangle's plane, lies over it. The triangle reaches by `overGaps`
@@ -167,23 +202,23 @@ template <class EdgeTest>
 inline Coverage CoverageOf(const Vector& normal, const Vector& a, const Vector& b, const Vector& c,
   const Vector& x, double own, double overGaps, const EdgeTest& isOpen, Vector& nearest)
 {
-  const EdgeSide sides[3] = { { normal, a, b, x }, { normal, b, c, x }, { normal, c, a, x } };
-  if (sides[0].IsInside(own) && sides[1].IsInside(own) && sides[2].IsInside(own))
+  const EdgeSides sides(normal, a, b, c, x);
+  if (sides.IsInside(own))
   {
     return Coverage::Inside;
   }
   double reach = own;
   for (int k = 0; k < 3; ++k)
   {
-    if (sides[k].Inward >= 0.0)
+    if (sides.Inward(k) >= 0.0)
     {
       continue;
     }
-    if (isOpen(k) && sides[k].IsNear(overGaps))
+    if (isOpen(k) && sides.IsNear(k, overGaps))
     {
       reach = overGaps;
     }
-    else if (!sides[k].IsNear(own))
+    else if (!sides.IsNear(k, own))
     {
       return Coverage::None;
     }
@@ -193,7 +228,7 @@ inline Coverage CoverageOf(const Vector& normal, const Vector& a, const Vector& 
   const Vector* const corners[4] = { &a, &b, &c, &a };
   for (int k = 0; k < 3; ++k)
   {
-    if (sides[k].IsNear(own) &&
+    if (sides.IsNear(k, own) &&
       SquaredLength(y - NearestOnSegment(*corners[k], *corners[k + 1], y)) <= own * own)
     {
       return Coverage::Own;
