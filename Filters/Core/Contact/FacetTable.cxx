@@ -4,6 +4,7 @@
 #include "haptics/Math/VectorClones.h"
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -20,7 +21,7 @@ void Prefetch(const void* address)
 #endif
 }
 
-/// Columns are worked out in fours, without a rest: what is beyond the last row does no harm.
+/// Columns are worked out in fours, without a rest: what is beyond the last row is infinitely far.
 constexpr std::int32_t RowsAtOnce = 4;
 HAPTICS_ALWAYS_INLINE std::int32_t WholeRows(std::int32_t count)
 {
@@ -40,19 +41,57 @@ void DistancesFrom(const Vector& x, std::int32_t count, const double* nx, const 
   }
 }
 
-/// See FacetTable::ColumnOfLimits().
-HAPTICS_VECTOR_CLONES
-void LimitsOf(std::int32_t count, const double* distance, const double* error,
-  const double* clearance, double* __restrict limits)
+/// One bit each.
+constexpr auto Bits = []
 {
+  std::array<std::uint64_t, 64> bits{};
+  for (std::size_t i = 0; i < bits.size(); ++i)
+  {
+    bits[i] = std::uint64_t(1) << i;
+  }
+  return bits;
+}();
+
+/// The same for up to 64 rows. Returns those whose distance is at most its limit.
+HAPTICS_VECTOR_CLONES
+std::uint64_t DistancesUpTo(const double* limits, const Vector& x, std::int32_t count,
+  const double* nx, const double* ny, const double* nz, const double* offset,
+  double* __restrict distances)
+{
+  const double x0 = x.x, x1 = x.y, x2 = x.z;
   const std::int32_t end = WholeRows(count);
+  std::uint64_t rows = 0;
   for (std::int32_t i = 0; i < end; ++i)
   {
-    const double half = 0.5 * clearance[i];
-    const double least = half < distance[i] ? half : distance[i];
-    const double value = least > error[i] ? least : error[i];
-    limits[i] = distance[i] < -error[i] ? -HUGE_VAL : value;
+    const double distance = nx[i] * x0 + ny[i] * x1 + nz[i] * x2 - offset[i];
+    distances[i] = distance;
+    rows |= distance <= limits[i] ? Bits[i] : 0;
   }
+  return rows;
+}
+
+/// See FacetTable::Limits. Returns the least distance from any plane, less its error.
+HAPTICS_VECTOR_CLONES
+double LimitsOf(std::int32_t count, const double* distance, const double* error,
+  const double* clearance, double* __restrict limits)
+{
+  using Rows = double __attribute__((vector_size(sizeof(double) * RowsAtOnce)));
+  Rows nearest = Rows{} + HUGE_VAL;
+  for (std::int32_t i = 0; i < count; i += RowsAtOnce)
+  {
+    Rows d, e, c;
+    std::memcpy(&d, distance + i, sizeof(d));
+    std::memcpy(&e, error + i, sizeof(e));
+    std::memcpy(&c, clearance + i, sizeof(c));
+    const Rows half = 0.5 * c;
+    const Rows least = half < d ? half : d;
+    const Rows value = least > e ? least : e;
+    const Rows limit = d < -e ? Rows{} - HUGE_VAL : value;
+    std::memcpy(limits + i, &limit, sizeof(limit));
+    const Rows away = (d < 0.0 ? -d : d) - e;
+    nearest = away < nearest ? away : nearest;
+  }
+  return std::min(std::min(nearest[0], nearest[1]), std::min(nearest[2], nearest[3]));
 }
 
 /// The list of what short motions may touch is made for some so many times as long as the first.
@@ -64,6 +103,7 @@ FacetTable::FacetTable(std::shared_ptr<const TriangleSurface> surface, std::size
   , Triangles(capacity)
   , Flipped(capacity)
   , Widths(capacity)
+  , Met((capacity + RowsInMask - 1) / RowsInMask)
 {
   for (auto* values :
     { &this->NormalX, &this->NormalY, &this->NormalZ, &this->PlaneOffset, &this->Errors,
@@ -119,6 +159,7 @@ bool FacetTable::TakeOver(const FacetTable& previous)
   copy(previous.Distances, this->Distances);
   copy(previous.TargetDistances, this->TargetDistances);
   copy(previous.Limits, this->Limits);
+  std::copy_n(previous.Met.begin(), (count + RowsInMask - 1) / RowsInMask, this->Met.begin());
   this->From = previous.From;
   this->To = previous.To;
   this->IsFromMeasured = previous.IsFromMeasured;
@@ -127,6 +168,8 @@ bool FacetTable::TakeOver(const FacetTable& previous)
   this->HasThinFacets = previous.HasThinFacets;
   this->LastTouched = previous.LastTouched;
   this->Count = count;
+  this->Nearest = previous.Nearest;
+  this->FillRest();
   return true;
 }
 
@@ -189,7 +232,19 @@ double FacetTable::Fill(const TriangleList& found, const FacetBatch::Question& q
       ++this->Count;
     }
   }
+  this->FillRest();
   return std::sqrt(nearest);
+}
+
+/// Rows after the last one, which are worked out with it.
+void FacetTable::FillRest()
+{
+  for (std::int32_t i = this->Count; i < WholeRows(this->Count); ++i)
+  {
+    this->NormalX[i] = this->NormalY[i] = this->NormalZ[i] = 0.0;
+    this->PlaneOffset[i] = -HUGE_VAL;
+    this->Errors[i] = this->Clearances[i] = 0.0;
+  }
 }
 
 /// Whether a thin triangle's longest edge is one of a broad triangle's too, which goes on from it
@@ -248,15 +303,10 @@ bool FacetTable::FillThin(std::int32_t i, const FacetBatch::Question& question)
   return true;
 }
 
-void FacetTable::Measure(const Vector& x, std::vector<double>& distances) const
-{
-  DistancesFrom(x - this->Middle, this->Count, this->NormalX.data(), this->NormalY.data(),
-    this->NormalZ.data(), this->PlaneOffset.data(), distances.data());
-}
-
 void FacetTable::MeasurePosition()
 {
-  this->Measure(this->From, this->Distances);
+  DistancesFrom(this->From - this->Middle, this->Count, this->NormalX.data(), this->NormalY.data(),
+    this->NormalZ.data(), this->PlaneOffset.data(), this->Distances.data());
   this->IsFromMeasured = true;
   this->ShortReach = -1.0;
   this->TurnToPosition();
@@ -266,7 +316,13 @@ void FacetTable::MeasurePosition()
 void FacetTable::MeasureTarget(const Vector& to)
 {
   this->To = to;
-  this->Measure(to, this->TargetDistances);
+  const Vector x = to - this->Middle;
+  for (std::int32_t i = 0; i < this->Count; i += RowsInMask)
+  {
+    this->Met[i / RowsInMask] = DistancesUpTo(this->Limits.data() + i, x,
+      std::min(this->Count - i, RowsInMask), this->NormalX.data() + i, this->NormalY.data() + i,
+      this->NormalZ.data() + i, this->PlaneOffset.data() + i, this->TargetDistances.data() + i);
+  }
   this->IsToMeasured = true;
   this->IsToClear = false;
 }
@@ -349,8 +405,8 @@ void FacetTable::TurnThin()
 
 void FacetTable::SetLimits()
 {
-  LimitsOf(this->Count, this->Distances.data(), this->Errors.data(), this->Clearances.data(),
-    this->Limits.data());
+  this->Nearest = LimitsOf(this->Count, this->Distances.data(), this->Errors.data(),
+    this->Clearances.data(), this->Limits.data());
 }
 
 bool FacetTable::MoveToTarget()
@@ -367,37 +423,24 @@ bool FacetTable::MoveToTarget()
   return this->IsFromMeasured;
 }
 
-double FacetTable::NearestPlane(double enough) const
-{
-  double nearest = HUGE_VAL;
-  for (std::int32_t i = 0; i < this->Count && nearest > enough; ++i)
-  {
-    nearest = std::min(nearest, std::abs(this->Distances[i]) - this->Errors[i]);
-  }
-  return nearest;
-}
-
 std::int32_t FacetTable::FindTouched(const Vector& to)
 {
   if (!this->HasTarget(to))
   {
     this->MeasureTarget(to);
   }
-  const double* const before = this->Distances.data();
-  const double* const after = this->TargetDistances.data();
-  const double* const error = this->Errors.data();
-  const std::int32_t count = this->Count;
-  for (std::int32_t i = 0; i < count; ++i)
-  {
-    // Asked first whether it may end behind: few motions do.
-    if (after[i] <= error[i] && before[i] >= -error[i] && this->MeetsBox(i, to, 0.0) &&
-      this->Touches(i, after[i], to))
+  std::int32_t touched = -1;
+  this->VisitMet(
+    [&](std::int32_t i)
     {
-      this->LastTouched = i;
-      return i;
-    }
-  }
-  return -1;
+      const double after = this->TargetDistances[i];
+      const bool isTouched =
+        after <= this->Errors[i] && this->MeetsBox(i, to, 0.0) && this->Touches(i, after, to);
+      touched = isTouched ? i : -1;
+      return !isTouched;
+    });
+  this->LastTouched = touched < 0 ? this->LastTouched : touched;
+  return touched;
 }
 
 void FacetTable::ListShort(double reach)

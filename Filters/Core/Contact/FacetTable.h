@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -63,6 +64,7 @@ public:
     this->To = target;
     this->IsToMeasured = false;
   }
+  /// Position has to be measured.
   void MeasureTarget(const Vector& target);
   void ForgetTarget() { this->IsToMeasured = false; }
   /// Of the measured target: whether no facet can be touched on the way there, for certain.
@@ -100,12 +102,23 @@ public:
   double Clearance(std::int32_t i) const { return this->Clearances[i]; }
   double Distance(std::int32_t i) const { return this->Distances[i]; }
   ///@}
-  ///@{
-  /// Columns for loops over all.
-  const double* ColumnOfTargetDistances() const { return this->TargetDistances.data(); }
-  /// A motion that ends farther from the plane than this does not meet the facet, nor touch it.
-  const double* ColumnOfLimits() const { return this->Limits.data(); }
-  ///@}
+  double TargetDistance(std::int32_t i) const { return this->TargetDistances[i]; }
+  /// Calls visit(i) for each row that the motion to the measured target may meet, or touch, as far
+  /// as planes say, until that returns false.
+  template <class Visitor>
+  void VisitMet(const Visitor& visit) const
+  {
+    for (std::int32_t first = 0; first < this->Count; first += RowsInMask)
+    {
+      for (std::uint64_t rows = this->Met[first / RowsInMask]; rows != 0; rows &= rows - 1)
+      {
+        if (!visit(first + __builtin_ctzll(rows)))
+        {
+          return;
+        }
+      }
+    }
+  }
 
   /// Whether the way to `to` comes into a triangle's box, grown by `reach`: as far as the way's own
   /// box says.
@@ -123,9 +136,8 @@ public:
     }
     return true;
   }
-  /// Distance from Position() to the nearest plane, less its error; anything up to `enough` where
-  /// that is not farther.
-  double NearestPlane(double enough) const;
+  /// Distance from Position() to the nearest plane, less its error.
+  double NearestPlane() const { return this->Nearest; }
 
   /// A facet that a motion to `to` touches from a side that can be touched, or -1. Exact. Position
   /// has to be measured.
@@ -147,9 +159,9 @@ public:
   Rims FindRims(double clearances) const;
 
 private:
+  void FillRest();
   bool FillThin(std::int32_t i, const FacetBatch::Question& question);
   bool IsSeam(std::int32_t triangle, const Facet& facet, double clearance) const;
-  void Measure(const Vector& x, std::vector<double>& distances) const;
   void TurnToPosition();
   void TurnThin();
   void SetLimits();
@@ -190,7 +202,13 @@ private:
   std::vector<double> NormalX, NormalY, NormalZ, PlaneOffset;
   std::array<std::vector<double>, 3> Low, High; ///< its box
   std::vector<double> Errors, Clearances;
-  std::vector<double> Distances, TargetDistances, Limits;
+  std::vector<double> Distances, TargetDistances;
+  /// A motion that ends farther from the plane than this does not meet the facet, nor touch it.
+  std::vector<double> Limits;
+  double Nearest = HUGE_VAL; ///< of Distances, less their errors
+  /// A bit for each row whose target distance is at most its limit.
+  std::vector<std::uint64_t> Met;
+  static constexpr std::int32_t RowsInMask = 64;
   /// A facet that motions no longer than ShortReach may touch.
   struct ShortRow
   {

@@ -279,7 +279,7 @@ void Neighbourhood::GrowEmptyBall(double nearest)
 void Neighbourhood::GrowToPlanes()
 {
   // No triangle is nearer than its plane.
-  const double nearest = this->HasBall() ? this->Table.NearestPlane(this->Reach) : 0.0;
+  const double nearest = this->HasBall() ? this->Table.NearestPlane() : 0.0;
   if (nearest > this->Reach)
   {
     this->GrowEmptyBall(nearest);

@@ -324,29 +324,18 @@ void WorkingSet::Scan(const Vector& to, const ActivePlanes& active, FacetHit& hi
   int count = 0;
   double first = HUGE_VAL;
   double last = HUGE_VAL;
-  const double* const after = facets.ColumnOfTargetDistances();
-  const double* const limit = facets.ColumnOfLimits();
-  const std::int32_t gathered = facets.Size();
   bool isClear = true;
-  const auto nextFrom = [&](std::int32_t i)
-  {
-    while (i < gathered && after[i] > limit[i])
-    {
-      ++i;
-    }
-    return i;
-  };
-  for (std::int32_t i = nextFrom(0); i < gathered; i = nextFrom(i + 1))
+  const auto take = [&](std::int32_t i)
   {
     isClear = false;
     const double here = facets.Distance(i);
-    const double there = after[i];
+    const double there = facets.TargetDistance(i);
     const double clearance = facets.Clearance(i);
     // No farther than four clearances from a facet is it met, half a one over its plane.
     if (there >= std::min(0.5 * clearance, here) ||
       !facets.MeetsBox(i, to, 16.0 * clearance + 4.0 * wayError))
     {
-      continue;
+      return;
     }
     const double approach = here - there;
     // Within two clearances is near enough: steps of rounding's size are not worth their check.
@@ -354,13 +343,13 @@ void WorkingSet::Scan(const Vector& to, const ActivePlanes& active, FacetHit& hi
     const double slack = stop > 0.0 ? (SlackOfHeight * clearance + wayError) / approach : 0.0;
     if (stop - slack > last)
     {
-      continue;
+      return;
     }
     const FacetId id{ this->Index, facets.Triangle(i) };
     const bool isActive = active.Has(id);
     if (isActive && there > 0.0)
     {
-      continue;
+      return;
     }
     const Vector normal = facets.Normal(i);
     const double enter = std::max(0.0, (here - 0.5 * clearance) / approach);
@@ -372,7 +361,7 @@ void WorkingSet::Scan(const Vector& to, const ActivePlanes& active, FacetHit& hi
         this->Covers(id, normal, clearance, wayError, this->LocalPosition() + cross * way, active));
     if (!meets)
     {
-      continue;
+      return;
     }
     if (stop < first)
     {
@@ -386,7 +375,13 @@ void WorkingSet::Scan(const Vector& to, const ActivePlanes& active, FacetHit& hi
       count = std::min(static_cast<int>(end - meetings.begin()), LargestNumberAtOnce - 1);
     }
     meetings[count++] = { i, stop, slack, there };
-  }
+  };
+  facets.VisitMet(
+    [&](std::int32_t i)
+    {
+      take(i);
+      return true;
+    });
   facets.SetTargetClear(isClear);
   hit.Fraction = HUGE_VAL;
   const Meeting* chosen = nullptr;
@@ -430,11 +425,13 @@ bool WorkingSet::IsClear(const Vector& target)
   {
     return this->IsSweepClear && to == this->Facets().Target();
   }
-  if (this->Near.GoesNowhere(to) || this->Near.PassesThroughNothing(to))
+  const bool isInBall = this->Near.HasBall() && this->Near.IsInBall(to);
+  if ((isInBall && this->Facets().IsKnownClear(to)) || this->Near.GoesNowhere(to) ||
+    this->Near.PassesThroughNothing(to))
   {
     return true;
   }
-  if (this->Near.HasBall() && !this->Near.IsInBall(to))
+  if (this->Near.HasBall() && !isInBall)
   {
     return false; // short of the hit, but rounded to beyond it, where other triangles are
   }
