@@ -308,6 +308,7 @@ void FacetTable::MeasurePosition()
   DistancesFrom(this->From - this->Middle, this->Count, this->NormalX.data(), this->NormalY.data(),
     this->NormalZ.data(), this->PlaneOffset.data(), this->Distances.data());
   this->IsFromMeasured = true;
+  this->IsToMeasured = false; // that was for other facets or limits
   this->ShortReach = -1.0;
   this->TurnToPosition();
   this->SetLimits();
