@@ -270,13 +270,13 @@ bool Cleaner::FindBounds(const PointReader& points)
         }
         ++used;
         const Vec3 point = points.At(static_cast<vtkIdType>(i));
+        if (!IsInRange(point)) // as TriangleSurface demands
+        {
+          Lower(bad, i);
+          return;
+        }
         for (int axis = 0; axis < 3; ++axis)
         {
-          if (!(std::abs(point[axis]) < LargestCoordinate)) // as TriangleSurface demands
-          {
-            Lower(bad, i);
-            return;
-          }
           lowest[axis] = std::min(lowest[axis], point[axis]);
           highest[axis] = std::max(highest[axis], point[axis]);
         }

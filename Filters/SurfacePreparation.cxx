@@ -403,9 +403,7 @@ bool SurfacePreparation::MovePoints(std::vector<Vec3>& points) const
     }
     const auto point = static_cast<vtkIdType>(i);
     const Vec3 p = reader.At(point);
-    // Not less is also how NaN answers.
-    if (!(std::abs(p[0]) < LargestCoordinate && std::abs(p[1]) < LargestCoordinate &&
-          std::abs(p[2]) < LargestCoordinate))
+    if (!IsInRange(p))
     {
       return false;
     }

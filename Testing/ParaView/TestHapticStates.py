@@ -8,7 +8,6 @@ import os
 import shutil
 import subprocess
 import sys
-import tempfile
 import time
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "Python"))
@@ -246,34 +245,25 @@ def load_and_touch(desktop, program, folder):
 
 def main():
     real_window.skip_where_it_cannot_run()
-    folder = tempfile.mkdtemp()
-    script = os.path.join(folder, "scene.py")
-    with open(script, "w") as file:
-        file.write(SCENE)
-    for place in ("HOME", "XDG_CONFIG_HOME", "HAPTICS_TEST_OUTPUT"):
-        os.environ[place] = folder  # a user's settings and other tests' logs are not this test's
     packages = os.environ.pop("PYTHONPATH", "")
     command = [PARAVIEW, "--dr", f"--plugin-search-paths={os.path.dirname(PLUGIN)}",
                "--plugins=Haptics"]
-    try:
-        with real_window.Desktop() as desktop:
-            for use, more in ((save, [f"--script={script}"]), (load_and_touch, [])):
-                program = desktop.start(command + more, "ParaView", SECONDS)
-                try:
-                    use(desktop, program, folder)
-                except AssertionError:
-                    print(program.output())
-                    raise
-                assert "ERR|" not in program.output() and "WARN|" not in program.output(), program.output()
-                program.process.terminate()
-                program.process.wait()
-            os.environ.update(PYTHONPATH=packages, DISPLAY=desktop.environment["DISPLAY"])
-            restored("python", os.path.join(folder, "state.py"), folder)
-            restored("pvsm", os.path.join(folder, "state.pvsm"), folder)
-            if os.path.exists(os.path.join(folder, "trace.py")):
-                restored("trace", os.path.join(folder, "trace.py"), folder)
-    finally:
-        shutil.rmtree(folder, ignore_errors=True)
+    with window_scene.home(SCENE) as (folder, script), real_window.Desktop() as desktop:
+        for use, more in ((save, [f"--script={script}"]), (load_and_touch, [])):
+            program = desktop.start(command + more, "ParaView", SECONDS)
+            try:
+                use(desktop, program, folder)
+            except AssertionError:
+                print(program.output())
+                raise
+            assert "ERR|" not in program.output() and "WARN|" not in program.output(), program.output()
+            program.process.terminate()
+            program.process.wait()
+        os.environ.update(PYTHONPATH=packages, DISPLAY=desktop.environment["DISPLAY"])
+        restored("python", os.path.join(folder, "state.py"), folder)
+        restored("pvsm", os.path.join(folder, "state.pvsm"), folder)
+        if os.path.exists(os.path.join(folder, "trace.py")):
+            restored("trace", os.path.join(folder, "trace.py"), folder)
 
 
 main()

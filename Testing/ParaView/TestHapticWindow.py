@@ -5,9 +5,7 @@ Run by Python with the plugin's file. ParaView itself reports what the hand does
 
 import os
 import re
-import shutil
 import sys
-import tempfile
 import time
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "Python"))
@@ -269,25 +267,15 @@ def touch_a_contour(desktop, program):
 
 def main():
     real_window.skip_where_it_cannot_run()
-    folder = tempfile.mkdtemp()
-    script = os.path.join(folder, "scene.py")
-    with open(script, "w") as file:
-        file.write(SCENE)
-    for place in ("HOME", "XDG_CONFIG_HOME", "HAPTICS_TEST_OUTPUT"):
-        os.environ[place] = folder  # a user's settings and other tests' logs are not this test's
-    command = [PARAVIEW, "--dr", f"--plugin-search-paths={os.path.dirname(PLUGIN)}",
-               "--plugins=Haptics", f"--script={script}"]
-    try:
-        with real_window.Desktop() as desktop:
-            program = desktop.start(command, "ParaView", SECONDS)
-            try:
-                touch_a_contour(desktop, program)
-            except AssertionError:
-                print(program.output())
-                raise
-            program.process.terminate()
-    finally:
-        shutil.rmtree(folder, ignore_errors=True)
+    with window_scene.home(SCENE) as (_, script), real_window.Desktop() as desktop:
+        program = desktop.start([PARAVIEW, "--dr", f"--plugin-search-paths={os.path.dirname(PLUGIN)}",
+                                 "--plugins=Haptics", f"--script={script}"], "ParaView", SECONDS)
+        try:
+            touch_a_contour(desktop, program)
+        except AssertionError:
+            print(program.output())
+            raise
+        program.process.terminate()
 
 
 main()

@@ -69,9 +69,7 @@ const Contact& GodObject::Update(const Vec3& hip) noexcept
 {
   GodObjectState& god = this->Internal->God;
   Contact& result = god.Result;
-  const bool isValid = std::all_of(hip.begin(), hip.end(),
-    [](double x) { return std::abs(x) < LargestCoordinate; }); // false for NaN
-  if (!isValid)
+  if (!IsInRange(hip))
   {
     result.Status = UpdateStatus::InvalidHip;
     result.Displacement = {};

@@ -37,10 +37,7 @@ std::string FindFault(
   }
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    const Vec3& p = points[i];
-    // Not less is also how NaN answers.
-    if (!(std::abs(p[0]) < LargestCoordinate && std::abs(p[1]) < LargestCoordinate &&
-          std::abs(p[2]) < LargestCoordinate))
+    if (!IsInRange(points[i]))
     {
       return "point " + std::to_string(i) + " is not finite, or beyond 1e70";
     }

@@ -59,10 +59,8 @@ SurfaceMotion::SurfaceMotion(const RigidPose& pose, const Vec3& pivot, double ra
 
 bool SurfaceMotion::IsValid(const RigidPose& pose) noexcept
 {
-  const auto isInRange = [](double x) { return std::abs(x) < LargestCoordinate; };
   const double length = glm::length(ToQuaternion(pose));
-  return std::all_of(pose.Translation.begin(), pose.Translation.end(), isInRange) &&
-    std::isfinite(length) && length > 1e-100;
+  return IsInRange(pose.Translation) && std::isfinite(length) && length > 1e-100;
 }
 
 bool SurfaceMotion::MoveTo(const RigidPose& target, double duration)

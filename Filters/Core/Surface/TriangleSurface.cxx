@@ -84,15 +84,10 @@ std::string FindFault(const TriangleMesh& mesh, const SurfaceOptions& options)
   {
     return "the side to touch must be Front, Both or Automatic";
   }
-  const auto isBad = [](const Vec3& p)
-  {
-    // Not less is also how NaN answers.
-    return !(std::abs(p[0]) < LargestCoordinate && std::abs(p[1]) < LargestCoordinate &&
-      std::abs(p[2]) < LargestCoordinate);
-  };
   const std::size_t badPoint = FirstBad(mesh.Points.size(),
-    [&](std::size_t i)
-    { return isBad(mesh.Points[i]) || (options.DeformDuration && isBad(mesh.Starts[i])); });
+    [&](std::size_t i) {
+      return !IsInRange(mesh.Points[i]) || (options.DeformDuration && !IsInRange(mesh.Starts[i]));
+    });
   if (badPoint < mesh.Points.size())
   {
     return "point " + std::to_string(badPoint) + " is not finite, or beyond 1e70";
