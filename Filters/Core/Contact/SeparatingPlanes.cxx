@@ -166,7 +166,9 @@ void SeparatingPlanes::Add(const Corners& corners, std::int32_t count)
       Choose(isOver, side * nY, Choose(isBc, awayBcY, Choose(isCa, awayCaY, awayAbY)));
     const float dZ =
       Choose(isOver, side * nZ, Choose(isBc, awayBcZ, Choose(isCa, awayCaZ, awayAbZ)));
-    const float squared = dX * dX + dY * dY + dZ * dZ;
+    // As the direction's own coordinates would give it, but without waiting for those.
+    const float squared =
+      Choose(isOver, nX * nX + nY * nY + nZ * nZ, Choose(isBc, bc, Choose(isCa, ca, ab)));
     const float inverse = Choose(squared > SmallestSquare, 1.0F / std::sqrt(squared), 0.0F);
     const float uX = inverse * dX, uY = inverse * dY, uZ = inverse * dZ;
     const float distance = -More(
@@ -204,6 +206,9 @@ std::int32_t SeparatingPlanes::FindNear(
   const float error = Error * (1.0F + units + travelled);
   const float farthest = travelled + static_cast<float>((reach + length) * this->PerUnit) + error;
   const float enough = static_cast<float>(reach * this->PerUnit) + error;
+  // The last number that is not above the limit.
+  const auto rounded = static_cast<float>(limit);
+  const float latest = rounded > limit ? std::nextafter(rounded, 0.0F) : rounded;
   std::int32_t found = 0;
   for (std::int32_t g = 0; g < this->Groups; ++g)
   {
@@ -226,13 +231,15 @@ std::int32_t SeparatingPlanes::FindNear(
       continue;
     }
     const Reals left = (over - enough) * (1.0F - Error);
-    for (; lanes != 0; lanes &= lanes - 1)
-    {
-      const int lane = __builtin_ctz(lanes);
-      const float entry = left[lane] > 0.0F ? left[lane] / -along[lane] : 0.0F;
-      this->Found[found] = { entry, Width * g + lane };
-      found += entry <= limit ? 1 : 0;
-    }
+    const Reals entries = left > 0.0F ? left / -along : Reals{};
+    lanes &= MaskOf(entries <= latest);
+    EightLanes numbers;
+    std::memcpy(&numbers, &entries, sizeof(numbers));
+    EightLanes triangles = Width * g + EightLanes{ 0, 1, 2, 3, 4, 5, 6, 7 };
+    PutSetFirst(lanes, numbers);
+    PutSetFirst(lanes, triangles);
+    WritePairs(numbers, triangles, &this->Found[found]); // what follows is overwritten too
+    found += __builtin_popcount(lanes);
   }
   return found;
 }

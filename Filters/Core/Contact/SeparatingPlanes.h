@@ -64,12 +64,18 @@ public:
   void VisitNear(
     const Vector& way, double length, double reach, const Limit& limit, const Visitor& visit)
   {
-    auto end = this->Found.begin() + this->FindNear(way, length, reach, limit());
-    std::make_heap(this->Found.begin(), end);
-    while (end != this->Found.begin() && this->Found.front().Entry <= limit())
+    NearTriangle* const found = this->Found.data();
+    std::int32_t count = this->FindNear(way, length, reach, limit());
+    for (std::int32_t i = count / 2; i-- > 0;)
     {
-      std::pop_heap(this->Found.begin(), end--);
-      visit(end->Triangle);
+      Sink(found, count, i, found[i]);
+    }
+    while (count > 0 && found->Entry <= limit())
+    {
+      const NearTriangle first = *found;
+      --count;
+      Sink(found, count, 0, found[count]);
+      visit(first.Triangle);
     }
   }
   /// Calls visit(i) for each triangle that may be nearer to the centre than a limit(), which may
@@ -102,9 +108,33 @@ private:
   {
     float Entry; ///< no nearer than the reach before this share of the way
     std::int32_t Triangle;
-    /// Of a heap the greatest is on top.
-    bool operator<(const NearTriangle& other) const { return this->Entry > other.Entry; }
   };
+  /// Puts one into a heap, the earliest on top, whose place `i` is free: moves those under it up,
+  /// the earlier of two each time, and what is put in then rises. As a binary heap of the standard
+  /// library does, but no branch hangs on which of two is earlier.
+  static void Sink(NearTriangle* heap, std::int32_t count, std::int32_t i, NearTriangle put)
+  {
+    const std::int32_t top = i;
+    std::int32_t child = 2 * i + 2;
+    for (; child < count; child = 2 * i + 2)
+    {
+      child -= heap[child].Entry > heap[child - 1].Entry ? 1 : 0;
+      heap[i] = heap[child];
+      i = child;
+    }
+    if (child == count)
+    {
+      heap[i] = heap[child - 1];
+      i = child - 1;
+    }
+    for (std::int32_t parent = (i - 1) / 2; i > top && heap[parent].Entry > put.Entry;
+         parent = (i - 1) / 2)
+    {
+      heap[i] = heap[parent];
+      i = parent;
+    }
+    heap[i] = put;
+  }
 
   std::int32_t FindNear(const Vector& way, double length, double reach, double limit);
   float Farthest(double distance) const;

@@ -5,7 +5,6 @@
 #include "haptics/Math/VectorClones.h"
 #include "haptics/Surface/TriangleBounds.h"
 
-#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -141,34 +140,13 @@ struct Segment
 /// So many of the nodes to come are called for before they are looked at.
 constexpr int CalledFor = 3;
 
-/// For each mask of eight bits the places of those that are set, and after them some that are not.
-constexpr auto PlacesOfSet = []
+/// Writes the numbers of the bits of a mask, and what follows them is overwritten too: `Width` in
+/// all. Returns how many count.
+HAPTICS_ALWAYS_INLINE int WriteSet(unsigned mask, const Lanes& numbers, void* to)
 {
-  std::array<std::array<std::int32_t, Width>, 1 << Width> places{};
-  for (std::size_t mask = 0; mask < places.size(); ++mask)
-  {
-    std::size_t count = 0;
-    for (std::int32_t i = 0; i < Width; ++i)
-    {
-      if ((mask >> i & 1u) != 0)
-      {
-        places[mask][count++] = i;
-      }
-    }
-  }
-  return places;
-}();
-
-/// Writes values(i) for each bit i of the mask, and what follows them is overwritten too: up to
-/// `Width` in all. Returns how many count. No branch hangs on the mask: it would be foreseen badly.
-template <class Values>
-HAPTICS_ALWAYS_INLINE int WriteSet(unsigned mask, const Values& values, decltype(values(0))* to)
-{
-  const auto& places = PlacesOfSet[mask];
-  for (int i = 0; i < Width; ++i)
-  {
-    to[i] = values(places[i]);
-  }
+  Lanes ordered = numbers;
+  PutSetFirst(mask, ordered);
+  std::memcpy(to, &ordered, sizeof(ordered));
   return __builtin_popcount(mask);
 }
 
@@ -189,11 +167,11 @@ HAPTICS_ALWAYS_INLINE void Find(const WideBvh& tree, const Region& region, Trian
     const unsigned met = region.Meets(node) & ((1u << (nodes + node.NumberOfTriangles)) - 1u);
     const unsigned metNodes = met & ((1u << nodes) - 1u);
     const unsigned metTriangles = met >> nodes;
-    if (metNodes != 0)
+    if (nodes != 0) // known before what is met is
     {
-      const std::uint32_t first = node.FirstNode;
-      size += WriteSet(
-        metNodes, [first](int i) { return first + static_cast<std::uint32_t>(i); }, stack + size);
+      const Lanes children =
+        static_cast<std::int32_t>(node.FirstNode) + Lanes{ 0, 1, 2, 3, 4, 5, 6, 7 };
+      size += WriteSet(metNodes, children, stack + size);
       for (int i = 1; i <= CalledFor; ++i)
       {
         const auto* const next = reinterpret_cast<const char*>(&tree.Nodes[stack[size - i]]);
@@ -201,15 +179,12 @@ HAPTICS_ALWAYS_INLINE void Find(const WideBvh& tree, const Region& region, Trian
         __builtin_prefetch(next + 64);
       }
     }
-    if (metTriangles == 0)
-    {
-      continue;
-    }
     const std::int32_t* const order = &tree.Order[node.FirstTriangle];
     if (found.Capacity - found.Count >= Width)
     {
-      found.Count += WriteSet(
-        metTriangles, [order](int i) { return order[i]; }, found.Indices + found.Count);
+      Lanes triangles;
+      std::memcpy(&triangles, order, sizeof(triangles));
+      found.Count += WriteSet(metTriangles, triangles, found.Indices + found.Count);
       continue;
     }
     for (unsigned rest = metTriangles; rest != 0; rest &= rest - 1)
