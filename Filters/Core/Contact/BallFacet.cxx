@@ -24,11 +24,11 @@ double Least(const Vector& normal, const Vector& fromA, const Vector& fromB, con
 }
 }
 
-BallFacet::BallFacet(const Vector& a, const Vector& b, const Vector& c)
-  : A(a)
-  , B(b)
-  , C(c)
+void BallFacet::Set(const Vector& a, const Vector& b, const Vector& c)
 {
+  this->A = a;
+  this->B = b;
+  this->C = c;
   const Facet plane(a, b, c);
   this->Normal = plane.HasArea() ? plane.Normal : Vector(0.0);
   this->Doubt = plane.DistanceError(1.0);
@@ -54,26 +54,28 @@ bool BallFacet::IsBehind(const Vector& x, double height) const
   return isCertain ? height < 0.0 : Orientation(this->A, this->B, this->C, x) < 0;
 }
 
-Separation BallFacet::Separate(bool isOneSided, const Vector& x) const
+void BallFacet::Separate(bool isOneSided, const Vector& x, Separation& separation) const
 {
-  Separation separation;
   const Vector from[3] = { x - this->A, x - this->B, x - this->C };
-  separation.Height = glm::dot(this->Normal, from[0]);
+  const double height = glm::dot(this->Normal, from[0]);
   const bool isBeyond[3] = { glm::dot(this->Inward[0], from[0]) < 0.0,
     glm::dot(this->Inward[1], from[1]) < 0.0, glm::dot(this->Inward[2], from[2]) < 0.0 };
   const bool isOver = !isBeyond[0] && !isBeyond[1] && !isBeyond[2];
   const auto separateByPlane = [&]
   {
-    const bool isFromBack = !isOneSided && this->IsBehind(x, separation.Height);
+    const bool isFromBack = !isOneSided && this->IsBehind(x, height);
     separation.Normal = isFromBack ? -this->Normal : this->Normal;
     separation.Distance = Least(separation.Normal, from[0], from[1], from[2]);
+    separation.Edge = -1;
+    separation.Corner = -1;
   };
+  separation.Height = height;
   if (isOver)
   {
     separateByPlane();
     if (!this->IsThin)
     {
-      return separation;
+      return;
     }
   }
   // Beyond an edge the nearest point is on one of those; over a thin facet it may as well be.
@@ -120,7 +122,7 @@ Separation BallFacet::Separate(bool isOneSided, const Vector& x) const
   if (least <= NoDirection * NoDirection * length)
   {
     separateByPlane();
-    return separation;
+    return;
   }
   const Vector normal = across / std::sqrt(least);
   const double distance = Least(normal, from[0], from[1], from[2]);
@@ -131,6 +133,5 @@ Separation BallFacet::Separate(bool isOneSided, const Vector& x) const
     separation.Edge = nearest;
     separation.Corner = corner;
   }
-  return separation;
 }
 }

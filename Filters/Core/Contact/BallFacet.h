@@ -30,7 +30,8 @@ struct BallFacet
   bool IsThin = false; ///< its edges may be beyond rounding's reach of each other, or not
 
   BallFacet() = default;
-  BallFacet(const Vector& a, const Vector& b, const Vector& c);
+  BallFacet(const Vector& a, const Vector& b, const Vector& c) { this->Set(a, b, c); }
+  void Set(const Vector& a, const Vector& b, const Vector& c);
 
   /// Whether x, projected on its plane, is within its edges.
   bool IsOver(const Vector& x) const
@@ -43,8 +44,17 @@ struct BallFacet
   /// Of x over the plane through the facet's lowest corner along its normal.
   double LeastHeight(const Vector& x) const;
 
-  /// `isOneSided`: right over the facet the plane is that of its front, though x be behind it.
-  Separation Separate(bool isOneSided, const Vector& x) const;
+  ///@{
+  /// `isOneSided`: right over the facet the plane is that of its front, though x be behind it. In
+  /// place where it is kept, as a copy of what has just been written is waited for.
+  void Separate(bool isOneSided, const Vector& x, Separation& separation) const;
+  Separation Separate(bool isOneSided, const Vector& x) const
+  {
+    Separation separation;
+    this->Separate(isOneSided, x, separation);
+    return separation;
+  }
+  ///@}
 
 private:
   /// Exact. `height`: of x over the plane.

@@ -106,12 +106,19 @@ double BallSet::HeightOver(const WorkingSet& set, double radius) const
     (glm::length(set.Frame().Origin()) + this->Surface.Radius() + radius);
 }
 
-BallFacet BallSet::FacetAt(std::int32_t triangle, double fraction) const
+void BallSet::SetFacet(std::int32_t triangle, double fraction, BallFacet& facet) const
 {
   const auto& corners = this->Surface.Triangles()[triangle];
-  return { ToVector(this->Surface.PointAt(corners[0], fraction)),
+  facet.Set(ToVector(this->Surface.PointAt(corners[0], fraction)),
     ToVector(this->Surface.PointAt(corners[1], fraction)),
-    ToVector(this->Surface.PointAt(corners[2], fraction)) };
+    ToVector(this->Surface.PointAt(corners[2], fraction)));
+}
+
+BallFacet BallSet::FacetAt(std::int32_t triangle, double fraction) const
+{
+  BallFacet facet;
+  this->SetFacet(triangle, fraction, facet);
+  return facet;
 }
 
 /// Valid until the next call.
@@ -122,7 +129,7 @@ BallSet::KnownFacet& BallSet::Known(std::int32_t triangle)
   {
     known.Triangle = triangle;
     known.Shape = this->Shape;
-    known.Facet = this->FacetAt(triangle, this->Fraction);
+    this->SetFacet(triangle, this->Fraction, known.Facet);
     known.IsSeparated = false;
   }
   return known;
@@ -614,7 +621,7 @@ void BallSet::Meet(std::int32_t i, const WorkingSet& set, const Motion& motion, 
     {
       return;
     }
-    plane = facet.Separate(isOneSided, motion.From + t * motion.Way);
+    facet.Separate(isOneSided, motion.From + t * motion.Way, plane);
     over = plane.Distance - motion.Reach;
     approach = -glm::dot(plane.Normal, motion.Way);
     if (over - approach * (1.0 - t) >= enough)

@@ -112,13 +112,14 @@ private:
     bool IsSeparatedFrom(const Vector& x) const { return this->IsSeparated && this->From == x; }
     void SeparateFrom(const Vector& x, bool isOneSided)
     {
-      this->Plane = this->Facet.Separate(isOneSided, x);
+      this->Facet.Separate(isOneSided, x, this->Plane);
       this->From = x;
       this->IsSeparated = true;
     }
   };
   static constexpr std::uint32_t NumberOfKnownFacets = 256;
 
+  void SetFacet(std::int32_t triangle, double fraction, BallFacet& facet) const;
   BallFacet FacetAt(std::int32_t triangle, double fraction) const;
   KnownFacet& Known(std::int32_t triangle);
   const KnownFacet& SeparatedFrom(std::int32_t triangle, const Vector& x);
