@@ -1,5 +1,7 @@
 #include "haptics/Contact/BallSet.h"
 
+#include "haptics/Surface/CornerPrefetch.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -268,16 +270,28 @@ void BallSet::Load(const WorkingSet& set)
 template <class PointOf>
 void BallSet::AddPlanes(const PointOf& pointOf)
 {
-  SeparatingPlanes::Corners corners{};
-  for (std::int32_t first = 0; first < this->Count; first += SeparatingPlanes::Width)
+  PrefetchCorners(this->Surface, this->Triangles.data(), this->Count);
+  // Two groups at a time, as what has just been written in pieces is waited for where it is read as
+  // a whole.
+  constexpr std::int32_t width = SeparatingPlanes::Width;
+  SeparatingPlanes::Corners corners[2]{};
+  for (std::int32_t first = 0; first < this->Count; first += 2 * width)
   {
-    const std::int32_t count = std::min(SeparatingPlanes::Width, this->Count - first);
-    for (std::int32_t lane = 0; lane < count; ++lane)
+    const std::int32_t rest = this->Count - first;
+    const std::int32_t counts[2] = { std::min(rest, width), std::clamp(rest - width, 0, width) };
+    const std::int32_t* triangle = &this->Triangles[first];
+    for (int group = 0; group < 2; ++group)
     {
-      const auto& [a, b, c] = this->Surface.Triangles()[this->Triangles[first + lane]];
-      corners.Set(lane, pointOf(a), pointOf(b), pointOf(c));
+      for (std::int32_t lane = 0; lane < counts[group]; ++lane)
+      {
+        const auto& [a, b, c] = this->Surface.Triangles()[*triangle++];
+        corners[group].Set(lane, pointOf(a), pointOf(b), pointOf(c));
+      }
     }
-    this->Planes.Add(corners, count);
+    for (int group = 0; group < 2 && counts[group] > 0; ++group)
+    {
+      this->Planes.Add(corners[group], counts[group]);
+    }
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include "haptics/Math/Predicates.h"
 #include "haptics/Math/VectorClones.h"
+#include "haptics/Surface/CornerPrefetch.h"
 
 #include <cmath>
 #include <cstring>
@@ -12,15 +13,6 @@ namespace haptics
 {
 namespace
 {
-void Prefetch(const void* address)
-{
-#if defined(__GNUC__)
-  __builtin_prefetch(address);
-#else
-  (void)address;
-#endif
-}
-
 /// Columns are worked out in fours, without a rest: what is beyond the last row is infinitely far.
 constexpr std::int32_t RowsAtOnce = 4;
 HAPTICS_ALWAYS_INLINE std::int32_t WholeRows(std::int32_t count)
@@ -178,18 +170,7 @@ double FacetTable::Fill(const TriangleList& found, const FacetBatch::Question& q
   this->Clear(question.Centre);
   this->IsToMeasured = false;
   double nearest = HUGE_VAL;
-  // The corners lie anywhere in memory: all are called for before the first is waited for.
-  for (std::int32_t k = 0; k < found.Count; ++k)
-  {
-    Prefetch(&this->Geometry.Surface().Triangles()[found.Indices[k]]);
-  }
-  for (std::int32_t k = 0; k < found.Count; ++k)
-  {
-    for (const std::int32_t corner : this->Geometry.Surface().Triangles()[found.Indices[k]])
-    {
-      Prefetch(&this->Geometry.Surface().Points()[corner]);
-    }
-  }
+  PrefetchCorners(this->Geometry.Surface(), found.Indices, found.Count);
   FacetBatch batch;
   for (std::int32_t start = 0; start < found.Count; start += FacetBatch::Capacity)
   {
