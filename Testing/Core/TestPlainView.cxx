@@ -606,7 +606,7 @@ TEST(PlainView, AFlushSeamThatMovesOrIsStoredInSinglePrecisionDoesNotHold)
   options.TouchedSide = Side::Front;
   options.CrackWidth = 1e-7;
   std::string error;
-  const Vec3 shift{ 0.1, 0.1, static_cast<float>(0.1) };
+  const Vec3 shift{ 0.1, 0.1, 0.1f };
   std::vector<TouchedSurface> still;
   for (const TriangleMesh& part : { left, right })
   {
