@@ -11,8 +11,23 @@ namespace
 constexpr double WantedInBall = 16.0;
 /// How far ahead of the god-object a ball is centred, in radii.
 constexpr double ShareAhead = 0.5;
+/// Of the distance from the surface, a ball that is hoped to be empty after a while.
+constexpr double ShareFree = 0.9;
+/// Of the radius of a ball of as many as wanted: one that is empty, and smaller, does not serve.
+constexpr double ShareOfWanted = 0.5;
+/// Of the surface's radius: the engine is asked about places no farther from the middle.
+constexpr double FarthestOut = 1.5;
 /// Of a patch's radius.
 constexpr double ShareOfPatch = 1.0 / 64.0;
+
+/// How far ahead of a steady motion a ball is centred, so that it serves longer. `moved`: since the
+/// last one.
+Vector Ahead(const Vector& moved, double radius)
+{
+  const double way = glm::length(moved);
+  const bool isSteady = way > 0.0 && way < 2.0 * radius;
+  return (isSteady ? ShareAhead * radius / way : 0.0) * moved;
+}
 
 std::size_t CapacityFor(const TriangleSurface& surface)
 {
@@ -59,6 +74,7 @@ void Neighbourhood::Continue(const Neighbourhood& previous)
   this->SmallestClearance = std::max(this->SmallestClearance, previous.SmallestClearance);
   this->Reach = std::max(this->Reach, previous.Reach);
   this->RadiusToTry = previous.RadiusToTry;
+  this->FreeRadius = previous.FreeRadius;
   this->LargestToTry = previous.LargestToTry;
   this->MostInBall = previous.MostInBall;
 }
@@ -90,6 +106,7 @@ void Neighbourhood::ForgetLearned()
 {
   this->EmptyRadius = 0.0;
   this->RadiusToTry = this->Table.Surface().Surface().Radius();
+  this->FreeRadius = 0.0;
   this->LargestToTry = HUGE_VAL;
   this->MostInBall = FewInBall;
   this->GatheredAt = this->Table.Position();
@@ -133,7 +150,7 @@ bool Neighbourhood::GatherBall(WorkBudget& budget)
   this->GatheredAt = position;
   const double surfaceRadius = surface.Radius();
   const double fromOrigin = glm::length(position);
-  if (fromOrigin > 1.5 * surfaceRadius)
+  if (fromOrigin > FarthestOut * surfaceRadius)
   {
     // No triangle is this far out.
     this->Radius = (fromOrigin - surfaceRadius) * (1.0 - 0x1p-40);
@@ -147,7 +164,6 @@ bool Neighbourhood::GatherBall(WorkBudget& budget)
     return true;
   }
   const auto capacity = static_cast<std::int32_t>(this->Triangles.size());
-  const double way = glm::length(moved);
   double radius = this->RadiusToTry;
   const double smallest = 0x1p-20 * surfaceRadius;
   const SurfacePatch* const patch = surface.Patch();
@@ -156,9 +172,7 @@ bool Neighbourhood::GatherBall(WorkBudget& budget)
   const double smallestInPatch = patch ? ShareOfPatch * patch->Region().Radius : HUGE_VAL;
   while (budget.Triangles > 0)
   {
-    // Ahead of a steady motion, so that the ball serves longer.
-    const bool isSteady = way > 0.0 && way < 2.0 * radius;
-    const Vector centre = position + (isSteady ? ShareAhead * radius / way : 0.0) * moved;
+    const Vector centre = position + Ahead(moved, radius);
     TriangleList found{ this->Triangles.data(), std::min(capacity, this->MostInBall) };
     if (radius > smallestInPatch && !this->IsWithinPatch(centre, radius))
     {
@@ -172,7 +186,7 @@ bool Neighbourhood::GatherBall(WorkBudget& budget)
     if (!found.Overflow)
     {
       this->Radius = radius * (1.0 - 0x1p-40);
-      this->Fill(found, centre, centre, radius, radius);
+      this->FreeRadius = ShareFree * this->Fill(found, centre, centre, radius, radius);
       this->Covered = Region::Ball;
       const double change = std::sqrt(WantedInBall / (this->Table.Size() + 1.0));
       // A surface of small triangles comes into a growing ball all at once: a radius that was too
@@ -204,13 +218,54 @@ bool Neighbourhood::GatherBall(WorkBudget& budget)
   return false;
 }
 
+bool Neighbourhood::GatherBallFor(const Vector& to, WorkBudget& budget)
+{
+  if (this->HasBall() && this->Table.Size() > 0 && this->Table.IsPositionMeasured())
+  {
+    // What has come nearer shows by its planes, before the engine is asked in vain.
+    this->FreeRadius = ShareFree * std::min(this->Table.NearestPlane(), this->Radius);
+  }
+  const Vector& position = this->Table.Position();
+  const double radius = this->FreeRadius;
+  const Vector centre = position + Ahead(position - this->GatheredAt, radius);
+  const bool isWorthwhile = radius > ShareOfWanted * this->RadiusToTry &&
+    SquaredLength(to - centre) < radius * radius &&
+    glm::length(position) <= FarthestOut * this->Table.Surface().Surface().Radius();
+  return (isWorthwhile && this->GatherNothing(centre, radius)) || this->GatherBall(budget);
+}
+
+/// In free space a ball in which there is nothing serves as long, and the engine looks at little
+/// for it. False, and it is not tried again until it is known how near the surface is, where there
+/// is something.
+bool Neighbourhood::GatherNothing(const Vector& centre, double radius)
+{
+  TriangleList found{ this->Triangles.data(), 0 };
+  found.Overflow = !this->IsWithinPatch(centre, radius);
+  if (!found.Overflow)
+  {
+    this->Table.Surface().Surface().Engine().FindInBall(ToVec3(centre), radius, found);
+  }
+  if (found.Overflow)
+  {
+    this->FreeRadius = 0.0;
+    return false;
+  }
+  this->GatheredAt = this->Table.Position();
+  this->Radius = radius * (1.0 - 0x1p-40);
+  this->Fill(found, centre, centre, radius, radius);
+  this->EmptyCentre = centre;
+  this->EmptyRadius = this->Radius - this->Reach;
+  this->Covered = Region::Ball;
+  return true;
+}
+
 bool Neighbourhood::GatherSegment(const Vector& to, WorkBudget& budget)
 {
   this->Forget();
   const TriangleSurface& surface = this->Table.Surface().Surface();
   const Vector position = this->Table.Position();
   // Far away there is no triangle, and the engine's coordinates are for the surface's own size.
-  const double reach = 1.5 * surface.Radius();
+  const double reach = FarthestOut * surface.Radius();
   const Vector way = to - position;
   const double a = SquaredLength(way);
   const double b = glm::dot(way, position);
@@ -247,12 +302,14 @@ bool Neighbourhood::GatherSwept(const Vector& to, WorkBudget& budget)
   // Engines find a triangle wherever it passes.
   const auto holdsWay = [&]
   { return this->HasBall() && this->IsInBall(this->Table.Position()) && this->IsInBall(to); };
-  return holdsWay() || (this->GatherBall(budget) && holdsWay()) || this->GatherSegment(to, budget);
+  return holdsWay() || (this->GatherBallFor(to, budget) && holdsWay()) ||
+    this->GatherSegment(to, budget);
 }
 
 /// Keeps of the found triangles those that meet the ball about `middle`. `farthest`: no place that
 /// will be asked for is farther from `centre`.
-void Neighbourhood::Fill(const TriangleList& found, const Vector& centre, const Vector& middle,
+/// Returns how far the nearest is from the god-object, at most `radius`.
+double Neighbourhood::Fill(const TriangleList& found, const Vector& centre, const Vector& middle,
   double radius, double farthest)
 {
   this->FoundCount = found.Count;
@@ -261,6 +318,7 @@ void Neighbourhood::Fill(const TriangleList& found, const Vector& centre, const 
   this->EmptyRadius = 0.0;
   this->GrowEmptyBall(nearest);
   this->MeasurePosition();
+  return std::min(nearest, radius);
 }
 
 /// `nearest`: no gathered triangle is nearer to the god-object.

@@ -89,6 +89,8 @@ public:
   ///@{
   /// False where the budget ends first, or one place has more triangles than fit.
   bool GatherBall(WorkBudget& budget);
+  /// The same for a motion: in free space a ball that holds all of it, and nothing else, is enough.
+  bool GatherBallFor(const Vector& to, WorkBudget& budget);
   bool GatherSegment(const Vector& to, WorkBudget& budget);
   /// All triangles that can come to the god-object while it goes there and the surface is swept.
   bool GatherSwept(const Vector& to, WorkBudget& budget);
@@ -119,7 +121,8 @@ private:
   };
 
   bool IsWithinPatch(const Vector& centre, double radius) const;
-  void Fill(const TriangleList& found, const Vector& centre, const Vector& middle, double radius,
+  bool GatherNothing(const Vector& centre, double radius);
+  double Fill(const TriangleList& found, const Vector& centre, const Vector& middle, double radius,
     double farthest);
   bool IsEmptyAround(const Vector& x) const
   {
@@ -141,6 +144,7 @@ private:
   Region Covered = Region::Nothing;
   double Radius = 0.0;                 ///< of the ball about the table's centre
   double RadiusToTry = 0.0;            ///< next time
+  double FreeRadius = 0.0;             ///< of a ball that is tried first, as it may be empty
   double LargestToTry = HUGE_VAL;      ///< below a radius that had too many, for some time
   std::int32_t MostInBall = FewInBall; ///< where the engine is stopped
   Vector GatheredAt{ 0 };              ///< where the god-object was when the last ball was gathered

@@ -187,7 +187,7 @@ bool WorkingSet::FindFirstHit(
     }
   }
   // Another ball is worth while where the god-object has neared the rim of the old one.
-  if (!this->Near.IsBallGatheredHere() && this->Near.GatherBall(budget))
+  if (!this->Near.IsBallGatheredHere() && this->Near.GatherBallFor(to, budget))
   {
     this->Scan(to, active, hit);
     if (isAnswered())
