@@ -9,6 +9,7 @@
 #include "haptics/Filters/PointReader.h"
 #include "haptics/Filters/PolygonSplitter.h"
 #include "haptics/Math/AccurateCross.h"
+#include "haptics/Math/CoordinateRange.h"
 #include "haptics/Math/LargePages.h"
 #include "haptics/Math/ParallelFor.h"
 

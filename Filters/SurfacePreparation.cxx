@@ -3,6 +3,7 @@
 #include "haptics/Filters/DataPoints.h"
 #include "haptics/Filters/PassAttributes.h"
 #include "haptics/Filters/PointReader.h"
+#include "haptics/Math/CoordinateRange.h"
 #include "haptics/Math/ParallelFor.h"
 
 #include "vtkAbstractArray.h"

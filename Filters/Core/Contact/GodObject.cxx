@@ -2,6 +2,7 @@
 
 #include "haptics/Contact/SceneGodObject.h"
 #include "haptics/Contact/Succession.h"
+#include "haptics/Math/CoordinateRange.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,7 @@
 #ifndef Haptics_Vec3_h
 #define Haptics_Vec3_h
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace haptics
 {
@@ -13,12 +11,6 @@ using Vec3 = std::array<double, 3>;
 
 /// Coordinates have to be smaller than this, so that products of four of them stay finite.
 constexpr double LargestCoordinate = 1e70;
-
-/// Whether all three are; NaN is not.
-inline bool IsInRange(const Vec3& p) noexcept
-{
-  return std::all_of(p.begin(), p.end(), [](double x) { return std::abs(x) < LargestCoordinate; });
-}
 }
 
 #endif

@@ -1,5 +1,6 @@
 #include "haptics/Surface/SurfaceDeformer.h"
 
+#include "haptics/Math/CoordinateRange.h"
 #include "haptics/Math/VectorMath.h"
 
 #include <glm/common.hpp>

@@ -1,5 +1,6 @@
 #include "haptics/Surface/SurfaceMotion.h"
 
+#include "haptics/Math/CoordinateRange.h"
 #include "haptics/Surface/SurfaceFrame.h"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 #include "haptics/Surface/TriangleSurface.h"
 
+#include "haptics/Math/CoordinateRange.h"
 #include "haptics/Math/ParallelFor.h"
 #include "haptics/Surface/Facet.h"
 #include "haptics/Surface/TriangleBounds.h"
