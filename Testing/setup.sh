@@ -15,7 +15,7 @@ and builds into build/, and leaves build/env.sh to source. What is done already 
           each other, and this script never removes a package.
   --tests build the tests too, and install what they need
   --slow  install what the slow tests need as well: a virtual machine for the USB driver
-  --ci    install what .ci/tidy and .ci/sanitizers need as well: clang, for the fuzz targets
+  --ci    install what .ci/tidy and .ci/sanitizers need as well: clang
   --strict
           warnings are errors, in a build that is configured anew
   --packages
