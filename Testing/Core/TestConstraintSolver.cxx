@@ -8,9 +8,23 @@
 
 using haptics::Dot;
 using haptics::Plane;
+using haptics::PlaneProjection;
 
 namespace
 {
+template <class Real>
+bool ProjectOnto(const Plane<Real>* const planes[3], int count, const Real& parallel, Real y[3],
+  Real multipliers[3])
+{
+  PlaneProjection<Real> projection;
+  if (!projection.Prepare(planes, count, parallel))
+  {
+    return false;
+  }
+  projection.Project(y, multipliers);
+  return true;
+}
+
 /// Counts multiplications and divisions, which is what the paper counts.
 struct Counted
 {

@@ -150,16 +150,18 @@ bool ActivePlanes::Solve(const Vector& wish, bool raise, const Vector& from, Vec
   {
     const Plane<double>* const chosen[3] = { &planes[supports[0]], &planes[supports[1]],
       &planes[supports[2]] };
-    if (!ProjectOnto(chosen, size, Parallel, y, m))
+    PlaneProjection<double> projection;
+    if (!projection.Prepare(chosen, size, Parallel))
     {
       return false;
     }
+    projection.Project(y, m);
     if (size > 1)
     {
       // The wish may be long and the planes nearly parallel: what rounding left is taken out, so
       // that the point keeps its planes to within a small part of the clearance.
       double corrections[3];
-      ProjectOnto(chosen, size, Parallel, y, corrections);
+      projection.Project(y, corrections);
       for (int i = 0; i < size; ++i)
       {
         m[i] += corrections[i];

@@ -131,6 +131,15 @@ bool PointWalk::Pass(const Vector& hip)
   return false;
 }
 
+/// Whether a facet that an earlier motion touched is in the straight way to the HIP, too.
+bool PointWalk::MeetsAgain(const Vector& hip) const
+{
+  const auto sets = this->God.Around.Sets.begin();
+  return std::any_of(sets + static_cast<std::ptrdiff_t>(this->God.Around.First),
+    sets + static_cast<std::ptrdiff_t>(this->God.Around.Last),
+    [&](const WorkingSet& set) { return set.TouchesAgain(hip); });
+}
+
 /// What is in plain view is reached: goes to the HIP where no facet is in the straight way there
 /// and that does not squeeze through a gap to be closed. So neither what facets reach over gaps nor
 /// planes that hold together, though each alone would let go, hold where nothing is.
@@ -151,6 +160,11 @@ void PointWalk::LookAhead(const Vector& hip)
   {
     return;
   }
+  if (this->IsOtherInTheWay && this->MeetsAgain(hip))
+  {
+    return;
+  }
+  this->IsOtherInTheWay = false;
   const auto standsInWay = [&](const ActivePlane& plane)
   {
     const bool isNew = std::find(this->HeldBefore.begin(), this->HeldBefore.end(), plane.Facet) ==
@@ -175,6 +189,7 @@ void PointWalk::LookAhead(const Vector& hip)
   {
     if (!this->God.Around.Sets[i].IsOpen(hip, this->God.Around.Budget, gap))
     {
+      this->IsOtherInTheWay = true;
       return;
     }
   }

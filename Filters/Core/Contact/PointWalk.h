@@ -29,12 +29,14 @@ public:
 
 private:
   bool Pass(const Vector& hip);
+  bool MeetsAgain(const Vector& hip) const;
 
   GodObjectState& God;
   WayChange& Change;
   PlaneRelease& Planes;
   std::array<FacetId, 3> HeldBefore; ///< this update
   FacetId InTheWay;                  ///< when it was last looked ahead
+  bool IsOtherInTheWay = false;      ///< than what held it, then
 };
 }
 

@@ -567,6 +567,12 @@ bool WorkingSet::StandsInWay(const ActivePlane& plane, const Vector& goal, bool 
     (coverage == Coverage::Own && Facet(a, b, c).SmallestHeight < plane.Clearance);
 }
 
+bool WorkingSet::TouchesAgain(const Vector& goal) const
+{
+  return !this->Geometry().IsSweeping() && this->Near.HasBall() &&
+    this->Facets().StillTouches(this->ToSurface.PointToLocal(goal));
+}
+
 bool WorkingSet::IsOpen(const Vector& goal, WorkBudget& budget, NarrowGap& gap)
 {
   const Vector to = this->ToSurface.PointToLocal(goal);

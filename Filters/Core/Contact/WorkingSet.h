@@ -188,6 +188,9 @@ public:
   /// Whether the facet of a plane is, for certain, in the straight way to `goal`; of one as thin as
   /// a line, if it `isNew`, to within rounding.
   bool StandsInWay(const ActivePlane& plane, const Vector& goal, bool isNew) const;
+  /// Whether the facet that was touched last, by whatever motion, is in the straight way to `goal`:
+  /// exact, but false where that is not soon known.
+  bool TouchesAgain(const Vector& goal) const;
   /// Whether the straight way to `goal` meets no facet from a side that can be touched: exact, but
   /// false where the budget ends first or the way is not known well enough. Adds to `gap` what is
   /// near the way. Afterwards IsClear() can be asked about `goal`.
