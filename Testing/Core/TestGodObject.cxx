@@ -2,6 +2,7 @@
 // x the haptic interface point (HIP). Lengths are metres.
 #include "AnalyticSurfaces.h"
 #include "ProfileSurfaces.h"
+#include "RandomVectors.h"
 #include "haptics/Contact/GodObject.h"
 #include "haptics/Tick/SurfaceForce.h"
 
@@ -9,6 +10,7 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
 #include <vector>
 
 using namespace haptics;
@@ -88,6 +90,33 @@ TEST(GodObject, MovesInEveryTickOfASlowSlide)
 //   o             (Fig. 5)
 //  ----.
 //   x  |   ->  o at the side, within one tick
+TEST(GodObject, RestsToTheLastDigitUnderAHandThatRests)
+{
+  GodObject god({ MakeSurface(Star(4, 1.0, 0.3, 5)) });
+  std::mt19937 random(3);
+  int held = 0;
+  for (int place = 0; place < 400; ++place)
+  {
+    const Vec3 way = NormalVector(random);
+    const double length = std::hypot(way[0], way[1], way[2]);
+    const auto at = [&](double radius) -> Vec3 {
+      return { radius / length * way[0], radius / length * way[1], radius / length * way[2] };
+    };
+    god.Place(at(2.0));
+    for (int tick = 0; tick < 30; ++tick)
+    {
+      god.Update(at(0.6));
+    }
+    held += god.Current().NumberOfConstraints == 3;
+    const Vec3 rest = god.Current().Position;
+    for (int tick = 0; tick < 10; ++tick)
+    {
+      ASSERT_EQ(god.Update(at(0.6)).Position, rest) << "place " << place << ", tick " << tick;
+    }
+  }
+  EXPECT_GT(held, 100); // in corners, where planes are put together
+}
+
 TEST(GodObject, CrossesAConvexEdgeWithinOneTick)
 {
   GodObject god({ MakeSurface(Box(0.02, 0.02, 0.02, 2)) });

@@ -15,6 +15,15 @@ constexpr double Parallel = 1e-24;
 constexpr double WornHeight = 0.9375;
 /// More than rounding of any point that is worked out here, as a share of the longest way.
 constexpr double ShareOfWay = 0x1p-24;
+/// A step of so many roundings of where it begins, or of the wish, is none: so what is held, and
+/// whose hand rests, is at rest.
+constexpr double RoundingsAtRest = 4.0;
+
+bool IsRounding(const Vector& step, const Vector& from, const Vector& wish)
+{
+  constexpr double share = RoundingsAtRest * UnitRoundoff;
+  return SquaredLength(step) <= share * share * (SquaredLength(from) + SquaredLength(wish));
+}
 
 /// Whether one to three planes push so much in the point y nearest to a wish on all of them that
 /// the nearest point z on fewer, or none, lies behind one of the others, farther than `slack`.
@@ -99,6 +108,10 @@ Vector ActivePlanes::Nearest(const Vector& from, const Vector& hip)
   {
     return hip; // exactly: free space has no force
   }
+  if (IsRounding(step, from, wish))
+  {
+    return from;
+  }
   // `from` is allowed: a nearest point farther from the HIP than it is rounding's.
   return SquaredLength(step - wish) <= SquaredLength(wish) * (1.0 + 1e-12) ? from + step : from;
 }
@@ -156,7 +169,7 @@ bool ActivePlanes::Solve(const Vector& wish, bool raise, const Vector& from, Vec
       return false;
     }
     projection.Project(y, m);
-    if (size > 1)
+    if (size > 1 && !IsRounding({ y[0], y[1], y[2] }, from, wish))
     {
       // The wish may be long and the planes nearly parallel: what rounding left is taken out, so
       // that the point keeps its planes to within a small part of the clearance.
