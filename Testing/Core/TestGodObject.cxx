@@ -261,6 +261,28 @@ TEST(GodObject, StopsAtTheFirstOfNestedSheets)
   }
 }
 
+TEST(GodObject, StopsAtTheFirstOfSheetsThatAreMoreThanAWayMayMeet)
+{
+  TriangleMesh sheets = Square(0.05);
+  double thickness = 1e-6;
+  for (int doubling = 0; doubling < 16; ++doubling, thickness *= 2.0)
+  {
+    sheets = Joined(sheets, Moved(sheets, { 0, 0, -thickness }));
+  }
+  GodObject god({ MakeSurface(std::move(sheets)) });
+  for (int tick = 0; tick < 20; ++tick)
+  {
+    god.Update({ 0.003, 0.001 + 1e-6 * tick, 2e-5 }); // it learns how fine they are
+  }
+  for (const double depth : { 1e-3, 0.06, 0.01, 0.06, 1e-5 })
+  {
+    const Contact& contact = god.Update({ 0.003, 0.001, -depth });
+    EXPECT_EQ(contact.Status, UpdateStatus::Touching) << depth;
+    ExpectAt(contact, { 0.003, 0.001, 0 });
+    god.Update({ 0.003, 0.001, 2e-5 });
+  }
+}
+
 TEST(GodObject, StaysOutsideTwoCoincidentSheets)
 {
   const TriangleMesh twice = Joined(Square(0.05, 2), InsideOut(Square(0.05, 2)));

@@ -17,6 +17,8 @@ constexpr double ShareFree = 0.9;
 constexpr double ShareOfWanted = 0.5;
 /// Of the surface's radius: the engine is asked about places no farther from the middle.
 constexpr double FarthestOut = 1.5;
+/// So many radii of a ball are a leap.
+constexpr double RadiiOfLeap = 4.0;
 /// Of a patch's radius.
 constexpr double ShareOfPatch = 1.0 / 64.0;
 
@@ -77,6 +79,7 @@ void Neighbourhood::Continue(const Neighbourhood& previous)
   this->FreeRadius = previous.FreeRadius;
   this->LargestToTry = previous.LargestToTry;
   this->MostInBall = previous.MostInBall;
+  this->LeapMetNear = previous.LeapMetNear;
 }
 
 /// Whether a ball holds no place where triangles may be missing.
@@ -109,6 +112,7 @@ void Neighbourhood::ForgetLearned()
   this->FreeRadius = 0.0;
   this->LargestToTry = HUGE_VAL;
   this->MostInBall = FewInBall;
+  this->LeapMetNear = false;
   this->GatheredAt = this->Table.Position();
 }
 
@@ -116,6 +120,18 @@ bool Neighbourhood::IsFarOut() const
 {
   const double far = 8.0 * this->Table.Surface().Surface().Radius();
   return SquaredLength(this->Table.Position()) > far * far;
+}
+
+bool Neighbourhood::IsLeap(const Vector& to) const
+{
+  const double far = RadiiOfLeap * this->RadiusToTry;
+  return SquaredLength(to - this->Table.Position()) > far * far && !this->IsFarOut();
+}
+
+bool Neighbourhood::MayHold(const Vector& x) const
+{
+  const double far = (1.0 + ShareAhead) * this->RadiusToTry;
+  return SquaredLength(x - this->Table.Position()) <= far * far;
 }
 
 bool Neighbourhood::PassesThroughNothing(const Vector& to)

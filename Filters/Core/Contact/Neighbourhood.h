@@ -74,6 +74,13 @@ public:
   }
   /// Whether the god-object is so far from the surface that a way there is known too badly.
   bool IsFarOut() const;
+  /// Whether a motion goes far beyond the ball that would be gathered next, but not from far out.
+  bool IsLeap(const Vector& to) const;
+  /// Whether a place may be in that ball.
+  bool MayHold(const Vector& x) const;
+  /// Whether the last leap met something so near.
+  bool DoLeapsMeetNear() const { return this->LeapMetNear; }
+  void SetLeapsMeetNear(bool doThey) { this->LeapMetNear = doThey; }
   /// How much of a way the ball reaches along: less than all by rounding.
   double FractionInBall(const Vector& to) const
   {
@@ -147,8 +154,9 @@ private:
   double FreeRadius = 0.0;             ///< of a ball that is tried first, as it may be empty
   double LargestToTry = HUGE_VAL;      ///< below a radius that had too many, for some time
   std::int32_t MostInBall = FewInBall; ///< where the engine is stopped
-  Vector GatheredAt{ 0 };              ///< where the god-object was when the last ball was gathered
-  Vector EmptyCentre{ 0 };             ///< of a ball in which no facet is met: nothing to look at
+  bool LeapMetNear = false;
+  Vector GatheredAt{ 0 };  ///< where the god-object was when the last ball was gathered
+  Vector EmptyCentre{ 0 }; ///< of a ball in which no facet is met: nothing to look at
   double EmptyRadius = 0.0;
 };
 }

@@ -186,6 +186,22 @@ bool WorkingSet::FindFirstHit(
       return true;
     }
   }
+  // A ball holds a small part of a leap, and is in vain where that meets nothing near by, as the
+  // leap before did not.
+  const bool isLeap = this->Near.IsLeap(to);
+  if (isLeap && !this->Near.DoLeapsMeetNear())
+  {
+    if (this->Near.GatherSegment(to, budget))
+    {
+      this->Scan(to, active, hit);
+      if (!hit ||
+        !this->Near.MayHold(this->LocalPosition() + hit.Fraction * (to - this->LocalPosition())))
+      {
+        return true;
+      }
+    }
+    this->Near.SetLeapsMeetNear(true);
+  }
   // Another ball is worth while where the god-object has neared the rim of the old one.
   if (!this->Near.IsBallGatheredHere() && this->Near.GatherBallFor(to, budget))
   {
@@ -193,6 +209,10 @@ bool WorkingSet::FindFirstHit(
     if (isAnswered())
     {
       return true;
+    }
+    if (isLeap)
+    {
+      this->Near.SetLeapsMeetNear(false);
     }
   }
   if (this->Near.HasBall() && this->Near.IsFarOut())
@@ -203,7 +223,13 @@ bool WorkingSet::FindFirstHit(
   }
   if (!this->Near.GatherSegment(to, budget))
   {
-    return false;
+    // Of more than fits the first may be near by.
+    if (!this->Near.GatherBall(budget))
+    {
+      return false;
+    }
+    this->Scan(to, active, hit);
+    return isAnswered();
   }
   this->Scan(to, active, hit);
   return true;
