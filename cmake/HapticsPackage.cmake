@@ -12,7 +12,7 @@ endif ()
 configure_file("${CMAKE_CURRENT_LIST_DIR}/VTKHapticsConfig.cmake.in"
   "${haptics_package_dir}/VTKHapticsConfig.cmake" @ONLY)
 write_basic_package_version_file("${haptics_package_dir}/VTKHapticsConfigVersion.cmake"
-  COMPATIBILITY SameMinorVersion)
+  COMPATIBILITY SameMajorVersion)
 configure_file("${CMAKE_CURRENT_LIST_DIR}/HapticsFindVTK.cmake"
   "${haptics_package_dir}/HapticsFindVTK.cmake" COPYONLY)
 install(

@@ -86,6 +86,7 @@ for name in files:
 
 # It may be moved: no text and no library's search path names where it was made.
 places = (str(source), str(build))
+sonames = []
 for name in files:
     path = prefix / name
     if path.is_symlink():
@@ -99,8 +100,14 @@ for name in files:
         dynamic = subprocess.run(
             ["readelf", "-d", path], capture_output=True, text=True, check=True
         ).stdout
+        # What is linked to one release runs with the later ones of its major version.
+        released = re.fullmatch(r"(libvtkHaptics\w+\.so\.\d+)\.[\d.]+", path.name)
+        if released:
+            assert f"soname: [{released.group(1)}]" in dynamic, f"{name}: {dynamic}"
+            sonames.append(released.group(1))
         for line in dynamic.splitlines():
             if "RUNPATH" in line or "RPATH" in line:
                 named = [place for place in places if place in line]
                 assert not named, f"{name} is searched for in {line}"
+assert sonames, "no library with a version"
 print(f"{len(files)} files, each in its place")
