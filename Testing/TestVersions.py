@@ -23,6 +23,12 @@ version = found["CMakeLists.txt"]
 assert version, found
 for name, named in found.items():
     assert named == version, f"{name} names version {named}, CMakeLists.txt {version}"
+# Who builds on the package asks for the interface of this one.
+interface = ".".join(version.split(".")[:2])
+for name in ("Testing/Consumer", "Testing/Consumer/Neighbours", "Devices/Template"):
+    text = (source / name / "CMakeLists.txt").read_text(encoding="utf-8")
+    asked = re.search(r"find_package\(VTKHaptics ([\d.]+) REQUIRED\)", text)
+    assert asked and asked.group(1) == interface, f"{name} asks for {asked}, not {interface}"
 # What that version writes is kept for the tests of later ones.
 formats = source / "Testing/Formats" / version
 assert sorted(file.name for file in formats.iterdir()) == ["stroke.haptic", "touched.pvsm"], formats

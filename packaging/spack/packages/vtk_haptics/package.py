@@ -9,10 +9,10 @@ class VtkHaptics(CMakePackage):
     never passes the surface, and a servo thread renders forces at 1 kHz."""
 
     # A release has a url and a checksum here; until then the sources are those around this file,
-    # by `spack develop --path . vtk-haptics@0.1.0`.
+    # by `spack develop --path . vtk-haptics@1.0.0`.
     license("BSD-3-Clause", checked_by="the authors")
 
-    version("0.1.0")
+    version("1.0.0")
 
     variant("paraview", default=False, description="Build the ParaView plugin, for ParaView's VTK")
     variant("python", default=True, description="Build the Python package vtkhaptics")
