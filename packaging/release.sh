@@ -1,20 +1,22 @@
 #!/bin/sh
 # Makes and checks what a release consists of, of the commit that is checked out.
-# Usage: sh packaging/release.sh [--wheel VTK_DIR] [--paraview] [--root ROOT] OUT
-#   --wheel     a wheel for pip's VTK too; VTK_DIR as of wheel/build.sh, or "" for vtk-sdk's
+# Usage: sh packaging/release.sh [--wheel PYTHON]... [--standin ROOT] [--paraview] [--root ROOT] OUT
+#   --wheel     a wheel for pip's VTK and that Python too, and the sdist; once for each Python
+#   --standin   a root of Debian 14 for the wheels, where pip has no vtk-sdk (wheel/build.sh)
 #   --paraview  the Debian package of the plugin; else those of the libraries. The two stacks exclude
 #               each other on Debian 12 and 13: run it once on a system of each
 #   --root      a root of the same Debian that has nothing in it but /proc and /dev, as by debootstrap:
 #               the packages are installed, used and removed there, as root (debian/check.sh)
 # OUT gets the sources, packages, wheels and SHA256SUMS. Run the tests first: sh Testing/test.sh --slow.
 set -eu
-wheel=
-wheel_vtk=
+pythons=
+standin=
 paraview=
 clean=
 while [ $# -gt 1 ]; do
   case $1 in
-    --wheel) wheel=yes; wheel_vtk=$2; shift ;;
+    --wheel) pythons="$pythons $2"; shift ;;
+    --standin) standin=$(realpath "$2"); shift ;;
     --paraview) paraview=--paraview ;;
     --root) clean=$(realpath "$2"); shift ;;
     *) sed -n '2,/^set/s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
@@ -34,11 +36,12 @@ mkdir -p "$out"
 
 say "Sources"
 git -C "$root" archive --prefix="vtkhaptics-$version/" -o "$out/vtkhaptics-$version-source.tar.gz" HEAD
-if [ -n "$wheel" ]; then
-  say "Wheel and sdist"
-  sh "$root/packaging/wheel/build.sh" ${wheel_vtk:+--vtk-dir "$wheel_vtk"} /usr/bin/python3 "$out"
-  sh "$root/packaging/wheel/check.sh" "$out"/vtkhaptics-"$version"-*.whl
-fi
+for python in $pythons; do
+  say "Wheel and sdist, $("$python" --version)"
+  sh "$root/packaging/wheel/build.sh" ${standin:+--standin "$standin"} "$python" "$out"
+  tag=$("$python" -c 'import sys; print("cp%d%d" % sys.version_info[:2])')
+  sh "$root/packaging/wheel/check.sh" "$out"/vtkhaptics-"$version-$tag"-*.whl "$python"
+done
 say "Debian packages"
 sh "$root/packaging/debian/build.sh" $paraview "$out"
 lintian --fail-on error "$out"/*.changes

