@@ -1,24 +1,29 @@
 #!/bin/sh
 # Makes and checks what a release consists of, of the commit that is checked out.
-# Usage: sh packaging/release.sh [--wheel PYTHON]... [--standin ROOT] [--paraview] [--root ROOT] OUT
+# Usage: sh packaging/release.sh [--wheel PYTHON]... [--standin ROOT] [--paraview] [--root ROOT]
+#                                [--since FOLDER] OUT
 #   --wheel     a wheel for pip's VTK and that Python too, and the sdist; once for each Python
 #   --standin   a root of Debian 14 for the wheels, where pip has no vtk-sdk (wheel/build.sh)
 #   --paraview  the Debian package of the plugin; else those of the libraries. The two stacks exclude
 #               each other on Debian 12 and 13: run it once on a system of each
 #   --root      a root of the same Debian that has nothing in it but /proc and /dev, as by debootstrap:
 #               the packages are installed, used and removed there, as root (debian/check.sh)
+#   --since     the Debian packages of an earlier release of the same major version, with those of
+#               its debugging symbols: what was linked to it has to run with this one (abipkgdiff)
 # OUT gets the sources, packages, wheels and SHA256SUMS. Run the tests first: sh Testing/test.sh --slow.
 set -eu
 pythons=
 standin=
 paraview=
 clean=
+since=
 while [ $# -gt 1 ]; do
   case $1 in
     --wheel) pythons="$pythons $2"; shift ;;
     --standin) standin=$(realpath "$2"); shift ;;
     --paraview) paraview=--paraview ;;
     --root) clean=$(realpath "$2"); shift ;;
+    --since) since=$(realpath "$2"); shift ;;
     *) sed -n '2,/^set/s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
   esac
   shift
@@ -45,6 +50,16 @@ done
 say "Debian packages"
 sh "$root/packaging/debian/build.sh" $paraview "$out"
 lintian --fail-on error "$out"/*.changes
+if [ -n "$since" ] && [ -z "$paraview" ]; then
+  say "Interface of the libraries, against $since"
+  status=0
+  abipkgdiff --fail-no-dbg --no-added-syms \
+    --d1 "$since"/libvtkhaptics-dbgsym_*.deb --devel1 "$since"/libvtkhaptics-dev_*.deb \
+    --d2 "$out"/libvtkhaptics-dbgsym_*.deb --devel2 "$out"/libvtkhaptics-dev_*.deb \
+    "$since"/libvtkhaptics_*.deb "$out"/libvtkhaptics_*.deb || status=$?
+  # Its bits: 1 and 2 are errors, 4 is any change, 8 one that breaks what was linked before.
+  [ $((status & 11)) -eq 0 ] || { echo "release.sh: that is no version $version" >&2; exit 1; }
+fi
 if [ -n "$clean" ]; then
   say "Debian packages, in $clean"
   tried=$(mktemp -d "$clean/tmp/packages.XXXXXX")
