@@ -12,6 +12,7 @@
 #               its debugging symbols: what was linked to it has to run with this one (abipkgdiff)
 # OUT gets the sources, packages, wheels and SHA256SUMS. Run the tests first: sh Testing/test.sh --slow.
 set -eu
+case ${1:-} in -h|--help) sed -n '2,/^set/s/^# \{0,1\}//p' "$0"; exit ;; esac
 pythons=
 standin=
 paraview=
@@ -28,7 +29,7 @@ while [ $# -gt 1 ]; do
   esac
   shift
 done
-[ $# -eq 1 ] || { sed -n '2,/^set/s/^# \{0,1\}//p' "$0" >&2; exit 2; }
+[ $# -eq 1 ] && [ "${1#-}" = "$1" ] || { sed -n '2,/^set/s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 root=$(cd "$(dirname "$0")/.." && pwd)
 out=$(realpath -m "$1")
 say() { printf '==> %s\n' "$*"; }

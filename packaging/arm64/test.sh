@@ -5,6 +5,7 @@
 # cmake ninja-build libglm-dev libcgal-dev:arm64 libgmp-dev:arm64 libmpfr-dev:arm64 libembree-dev:arm64
 # libgtest-dev:arm64 qemu-user-static
 set -eu
+case ${1:-} in -h|--help) sed -n '2,/^set/s/^# \{0,1\}//p' "$0"; exit ;; esac
 here=$(cd "$(dirname "$0")" && pwd)
 build=$1
 cmake -S "$here" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release \

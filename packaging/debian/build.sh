@@ -4,6 +4,7 @@
 #   --paraview   the plugin, for the ParaView that is installed; else the libraries for VTK
 #   FOLDER       where the packages go (default: packages/ next to the sources)
 set -eu
+case ${1:-} in -h|--help) sed -n '2,/^set/s/^# \{0,1\}//p' "$0"; exit ;; esac
 profile=
 if [ "${1:-}" = --paraview ]; then
   profile=pkg.vtkhaptics.paraview

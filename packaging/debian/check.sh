@@ -4,6 +4,7 @@
 #                                                one made by debootstrap --variant=minbase
 # FOLDER has the packages that build.sh made, of the libraries or of the plugin.
 set -eu
+case ${1:-} in -h|--help) sed -n '2,/^set/s/^# \{0,1\}//p' "$0"; exit ;; esac
 [ $# -eq 1 ] && [ -d "$1" ] || { sed -n '2,/^set/s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 packages=$(realpath "$1")
 work=$(mktemp -d)

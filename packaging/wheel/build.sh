@@ -8,6 +8,7 @@
 # one. The libraries that the wheel takes along are the system's, with their licences, as packages of
 # Debian have them.
 set -eu
+case ${1:-} in -h|--help) sed -n '2,/^set/s/^# \{0,1\}//p' "$0"; exit ;; esac
 standin=
 if [ "${1:-}" = --standin ]; then
   standin=$(realpath "$2")

@@ -3,6 +3,7 @@
 # sources and from what the system has.
 # Usage: sh packaging/wheel/check.sh WHEEL [PYTHON]
 set -eu
+case ${1:-} in -h|--help) sed -n '2,/^set/s/^# \{0,1\}//p' "$0"; exit ;; esac
 wheel=$(realpath "$1")
 root=$(cd "$(dirname "$0")/../.." && pwd)
 work=$(mktemp -d)

@@ -7,6 +7,7 @@
 #   SDK     the folder to make; VTK_DIR, which is printed, lies in it
 #   PYTHON  a Python into which pip has installed that vtk
 set -eu
+case ${1:-} in -h|--help) sed -n '2,/^set/s/^# \{0,1\}//p' "$0"; exit ;; esac
 root=$(realpath "$1") sdk=$(realpath -m "$2") python=$3
 arch=x86_64-linux-gnu
 wheel=$("$python" -c 'import os, vtkmodules; print(os.path.dirname(vtkmodules.__file__))')
