@@ -34,6 +34,14 @@ root=$(cd "$(dirname "$0")/.." && pwd)
 out=$(realpath -m "$1")
 say() { printf '==> %s\n' "$*"; }
 
+# Before anything takes long.
+missing=
+for tool in dpkg-buildpackage=dpkg-dev dh=debhelper dh_python3=dh-python lintian=lintian \
+  desktop-file-validate=desktop-file-utils appstreamcli=appstream man=man-db ${since:+abipkgdiff=abigail-tools}; do
+  command -v "${tool%=*}" >/dev/null || missing="$missing ${tool#*=}"
+done
+[ -z "$missing" ] || { echo "release.sh: first: apt-get install$missing" >&2; exit 1; }
+
 say "Versions agree, and the tree is what is committed"
 /usr/bin/python3 "$root/Testing/TestVersions.py" "$root"
 [ -z "$(git -C "$root" status --porcelain)" ] || { echo "release.sh: commit first" >&2; exit 1; }
