@@ -62,7 +62,7 @@ void Await(asio::io_context& io, const bool& isDone, error_code& error,
 struct HaplySocket::Implementation
 {
   asio::io_context Io{ 1 };
-  websocket::stream<beast::tcp_stream> Stream{ this->Io };
+  websocket::stream<beast::tcp_stream, false> Stream{ this->Io }; // nothing is compressed
   beast::flat_buffer Buffer;
   bool IsReading = false;
   error_code ReadError;
