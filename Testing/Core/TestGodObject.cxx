@@ -87,9 +87,6 @@ TEST(GodObject, MovesInEveryTickOfASlowSlide)
   }
 }
 
-//   o             (Fig. 5)
-//  ----.
-//   x  |   ->  o at the side, within one tick
 TEST(GodObject, RestsToTheLastDigitUnderAHandThatRests)
 {
   GodObject god({ MakeSurface(Star(4, 1.0, 0.3, 5)) });
@@ -117,6 +114,9 @@ TEST(GodObject, RestsToTheLastDigitUnderAHandThatRests)
   EXPECT_GT(held, 100); // in corners, where planes are put together
 }
 
+//   o             (Fig. 5)
+//  ----.
+//   x  |   ->  o at the side, within one tick
 TEST(GodObject, CrossesAConvexEdgeWithinOneTick)
 {
   GodObject god({ MakeSurface(Box(0.02, 0.02, 0.02, 2)) });
