@@ -547,7 +547,7 @@ PatchRecord SurfaceCensus::Finish(const PartBox& all) const
   const Vector low = ToVector(all.Low);
   const Vector high = ToVector(all.High);
   whole.Origin = ToVec3(shift);
-  whole.Radius = (0.5 * glm::length(high - low) + glm::length(middle - shift)) * (1.0 + 0x1p-40);
+  whole.Radius = RadiusAbout(shift, low, high);
   whole.Diagonal = glm::length((high - shift) - (low - shift));
   return record;
 }

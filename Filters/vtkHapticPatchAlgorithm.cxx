@@ -245,10 +245,8 @@ void vtkHapticPatchAlgorithm::DeformFromTouched()
   whole.Origin = before.Origin;
   whole.Negligible =
     before.Negligible > 0.0 ? before.Negligible : haptics::NegligibleShare * before.Radius;
-  const haptics::Vector low = haptics::ToVector(in.Box.Low);
-  const haptics::Vector high = haptics::ToVector(in.Box.High);
-  const haptics::Vector fromOrigin = low + 0.5 * (high - low) - haptics::ToVector(whole.Origin);
-  in.EndRadius = (0.5 * glm::length(high - low) + glm::length(fromOrigin)) * (1.0 + 0x1p-40);
+  in.EndRadius = haptics::RadiusAbout(
+    haptics::ToVector(whole.Origin), haptics::ToVector(in.Box.Low), haptics::ToVector(in.Box.High));
   whole.Radius = std::max(in.EndRadius, in.Touched->EndRadius);
   whole.LongestEdge = std::max(in.EndLongestEdge, in.Touched->EndLongestEdge);
   in.Record->Frame = in.Touched->Record.Frame;

@@ -230,3 +230,56 @@ TEST(FuzzFindings, ABallsCentreCrossesNoFrontOfASliver)
   }
   EXPECT_GT(touched, 300);
 }
+
+// Where points are a rounding apart the middle between them is rounded, to a corner: no point may
+// be farther out than the radius all the same, or nothing is looked for where it is.
+TEST(FuzzFindings, ATriangleAsSmallAsARoundingIsNotMissedFromFarOut)
+{
+  constexpr double u = 0x1p-52;
+  ExpectNoCrossing(OneTriangle({ -2, -2, -2 }, { -2 + u, -2 - 2 * u, -2 - 2 * u },
+                     { -2 - 2 * u, -2 - 2 * u, -2 - 2 * u }, Side::Front),
+    { { -2, 1 - 0.5 * u, 1 }, { -3.28, 2.27, -0.12 }, { -2 - 2 * u, -2 - 2 * u, -2 - 2 * u } });
+
+  std::mt19937 random(34);
+  std::uniform_int_distribution<int> ulps(-4, 4);
+  int touched = 0;
+  for (int trial = 0; trial < 400; ++trial)
+  {
+    const double size = std::ldexp(1.0, trial % 7 - 3);
+    const auto near = [&]
+    {
+      Vec3 x = { size, -size, size };
+      for (double& value : x)
+      {
+        value += ulps(random) * u * size;
+      }
+      return x;
+    };
+    const Vec3 corners[3] = { near(), near(), near() };
+    TriangleMesh mesh;
+    mesh.Points = { corners[0], corners[1], corners[2] };
+    mesh.Triangles = { { 0, 1, 2 } };
+    std::string error;
+    SurfaceOptions options;
+    options.TouchedSide = trial % 2 ? Side::Front : Side::Both;
+    const auto surface = TriangleSurface::Build(std::move(mesh), options, error);
+    if (!surface)
+    {
+      continue; // no area
+    }
+    for (const Vec3& p : surface->Points())
+    {
+      EXPECT_LE(Length(p), surface->Radius());
+    }
+    const ExactQueries exact(surface);
+    GodObject god({ surface });
+    for (int tick = 0; tick < 12; ++tick)
+    {
+      const Vec3 hip = tick % 3 == 2 ? corners[tick / 3 % 3]
+                                     : corners[0] + (tick % 2 ? 2.0 : 0.01) * NormalVector(random);
+      touched += god.Update(hip).IsTouching() ? 1 : 0;
+      ASSERT_FALSE(HasCrossed(god, exact)) << "trial " << trial << ", tick " << tick;
+    }
+  }
+  EXPECT_GT(touched, 100);
+}

@@ -3,6 +3,7 @@
 
 #include "haptics/Math/Vec3.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
@@ -29,6 +30,14 @@ inline double SquaredLength(const Vector& v)
 
 /// Half the distance from 1 to the next float64: the bound on one relative rounding error.
 constexpr double UnitRoundoff = 0x1p-53;
+
+/// A bound on how far from `origin` a point of a box is, and on how far it is once rounded there.
+/// The middle of a box as small as the rounding of its coordinates is itself rounded: half its
+/// diagonal is none.
+inline double RadiusAbout(const Vector& origin, const Vector& low, const Vector& high)
+{
+  return glm::length(glm::max(glm::abs(low - origin), glm::abs(high - origin))) * (1.0 + 0x1p-40);
+}
 
 /// What is smaller than this share of a surface's radius is taken for 0 in its local frame: 2^15
 /// times less than rounding is, and CGAL's exact numbers then never outgrow the room that they have

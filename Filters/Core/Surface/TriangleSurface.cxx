@@ -170,8 +170,7 @@ double Recentre(TriangleMesh& mesh, Vec3& origin)
     shift[axis] = isRounded[axis] ? 0.0 : middle[axis];
   }
   origin = ToVec3(shift);
-  const double radius =
-    (0.5 * glm::length(high - low) + glm::length(middle - shift)) * (1.0 + 0x1p-40);
+  const double radius = RadiusAbout(shift, low, high);
   ParallelFor(mesh.Points.size(), PieceSize,
     [&](std::size_t first, std::size_t last)
     {
