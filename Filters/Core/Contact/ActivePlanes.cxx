@@ -25,7 +25,24 @@ bool IsRounding(const Vector& step, const Vector& from, const Vector& wish)
   return SquaredLength(step) <= share * share * (SquaredLength(from) + SquaredLength(wish));
 }
 
-/// Whether one to three planes push so much in the point y nearest to a wish on all of them that
+/// A plane relative to `from`, which is so high over it: the least that is to be left of its
+/// clearance, or all of that if `raise` is asked for and rounding has worn it down.
+Plane<double> PlaneFrom(const ActivePlane& plane, double height, bool raise)
+{
+  const bool lift =
+    raise && (height < 0.5 * plane.Clearance || height > WornHeight * plane.Clearance);
+  return { { plane.Normal.x, plane.Normal.y, plane.Normal.z },
+    lift ? plane.Clearance - height : std::min(plane.Clearance - height, 0.0) };
+}
+
+/// Whether a point keeps a plane but for rounding.
+bool Keeps(const double y[3], const Plane<double>& plane, double clearance)
+{
+  const double size = std::max({ std::abs(y[0]), std::abs(y[1]), std::abs(y[2]) });
+  return !(Dot(plane.Normal, y) < plane.Offset - (0.125 * clearance + 16.0 * UnitRoundoff * size));
+}
+
+/// Whether two or three planes push so much in the point y nearest to a wish on all of them that
 /// the nearest point z on fewer, or none, lies behind one of the others, farther than `slack`.
 ///
 /// With unit normals n, multipliers m and what z lacks of the others, d, the rule of Pythagoras for
@@ -37,10 +54,6 @@ bool DoAllPush(const std::array<Plane<double>, ActivePlanes::Capacity>& planes, 
 {
   // Rounding grows as V falls; from here on it is far below any slack.
   constexpr double leastVolume = 0x1p-10;
-  if (count == 1)
-  {
-    return m[0] > 4.0 * slack;
-  }
   const double* const a = planes[0].Normal;
   const double* const b = planes[1].Normal;
   const double line[3] = { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
@@ -127,8 +140,38 @@ bool ActivePlanes::PushOut(Vector& point)
   return true;
 }
 
+/// One plane is kept by the wish, or by the point of the plane that is nearest to it.
+bool ActivePlanes::SolveOne(const Vector& wish, bool raise, const Vector& from, Vector& nearest)
+{
+  const ActivePlane& active = this->Planes[0];
+  const Plane<double> plane =
+    PlaneFrom(active, glm::dot(active.Normal, from - active.Anchor), raise);
+  this->Supports = {};
+  this->NumberOfSupports = 0;
+  double y[3] = { wish.x, wish.y, wish.z };
+  if (!Keeps(y, plane, active.Clearance))
+  {
+    const double multiplier = plane.Offset - Dot(plane.Normal, y);
+    for (int k = 0; k < 3; ++k)
+    {
+      y[k] += multiplier * plane.Normal[k];
+    }
+    if (!Keeps(y, plane, active.Clearance))
+    {
+      return false;
+    }
+    this->NumberOfSupports = 1;
+  }
+  nearest = { y[0], y[1], y[2] };
+  return true;
+}
+
 bool ActivePlanes::Solve(const Vector& wish, bool raise, const Vector& from, Vector& nearest)
 {
+  if (this->Count == 1)
+  {
+    return this->SolveOne(wish, raise, from, nearest);
+  }
   // Relative to `from`, where the numbers are small and keep their digits.
   std::array<Plane<double>, Capacity> planes;
   double longest = std::abs(wish.x) + std::abs(wish.y) + std::abs(wish.z);
@@ -137,20 +180,15 @@ bool ActivePlanes::Solve(const Vector& wish, bool raise, const Vector& from, Vec
   {
     const ActivePlane& plane = this->Planes[i];
     const double height = glm::dot(plane.Normal, from - plane.Anchor);
-    const bool lift =
-      raise && (height < 0.5 * plane.Clearance || height > WornHeight * plane.Clearance);
-    planes[i] = { { plane.Normal.x, plane.Normal.y, plane.Normal.z },
-      lift ? plane.Clearance - height : std::min(plane.Clearance - height, 0.0) };
+    planes[i] = PlaneFrom(plane, height, raise);
     longest = std::max(longest, std::abs(height));
     widest = std::max(widest, plane.Clearance);
   }
   const auto keepsAll = [&](const double y[3])
   {
-    const double size = std::max({ std::abs(y[0]), std::abs(y[1]), std::abs(y[2]) });
     for (int i = 0; i < this->Count; ++i)
     {
-      const double slack = 0.125 * this->Planes[i].Clearance + 16.0 * UnitRoundoff * size;
-      if (Dot(planes[i].Normal, y) < planes[i].Offset - slack)
+      if (!Keeps(y, planes[i], this->Planes[i].Clearance))
       {
         return false;
       }
@@ -185,10 +223,10 @@ bool ActivePlanes::Solve(const Vector& wish, bool raise, const Vector& from, Vec
 
   // Where all planes push, and none only a little, no fewer can: see DoAllPush(). So it is in
   // corners, from one update to the next.
-  if (this->Count >= 1 && this->Count <= 3)
+  if (this->Count == 2 || this->Count == 3)
   {
     const double slack = widest + ShareOfWay * longest;
-    const std::array<int, 3> all{ 0, this->Count > 1, this->Count - 1 };
+    const std::array<int, 3> all{ 0, 1, this->Count - 1 };
     double y[3] = { wish.x, wish.y, wish.z };
     double multipliers[3];
     if (project(all, this->Count, y, multipliers) &&

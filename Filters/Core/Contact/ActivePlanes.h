@@ -168,6 +168,7 @@ public:
 
 private:
   bool Solve(const Vector& wish, bool raise, const Vector& from, Vector& nearest);
+  bool SolveOne(const Vector& wish, bool raise, const Vector& from, Vector& nearest);
 
   std::array<ActivePlane, Capacity> Planes;
   int Count = 0;

@@ -42,6 +42,10 @@ bool PointWalk::Walk(const Vector& goal)
 {
   while (this->God.PassesLeft-- > 0)
   {
+    if (this->God.FliesTo(goal))
+    {
+      return true;
+    }
     const Vector before = this->God.Position;
     const bool arrived = this->Pass(goal);
     this->Change.Stop();

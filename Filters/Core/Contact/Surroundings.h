@@ -119,6 +119,17 @@ public:
     }
     return true;
   }
+  /// Whether the god-object goes there through where it is known that there is nothing, so that
+  /// nobody has to be asked. It is the target then.
+  bool IsKnownEmpty(const Vector& to)
+  {
+    bool isEmpty = !this->HasPatches;
+    for (std::size_t i = this->First; i < this->Last && isEmpty; ++i)
+    {
+      isEmpty = this->Sets[i].IsKnownEmpty(to);
+    }
+    return isEmpty;
+  }
   /// To the target of the last IsClear().
   void MoveSets()
   {

@@ -528,10 +528,31 @@ void WorkingSet::MoveTo(const Vector& place)
 Coverage WorkingSet::CoverageAt(
   const ActivePlane& plane, const Vector& position, Vector& nearest) const
 {
+  const std::int32_t triangle = plane.Facet.Triangle;
+  const double own = GrowthOverSharedEdges * plane.Clearance;
+  const Vector x = this->ToSurface.PointToLocal(position);
+  if (this->Known.Has(triangle, own, x))
+  {
+    return Coverage::Inside;
+  }
   const Vector normal =
     this->ToSurface.VectorToLocal(plane.IsFlipped ? -plane.Normal : plane.Normal);
-  return this->Geometry().CoverageAt(plane.Facet.Triangle, normal, plane.Clearance, 0.0,
-    this->ToSurface.PointToLocal(position), nearest);
+  const Coverage coverage =
+    this->Geometry().CoverageAt(triangle, normal, plane.Clearance, 0.0, x, nearest);
+  if (coverage == Coverage::Inside && this->Known.IsWorthLearning(triangle, own))
+  {
+    this->LearnInside(triangle, normal);
+  }
+  return coverage;
+}
+
+void WorkingSet::LearnInside(std::int32_t triangle, const Vector& normal) const
+{
+  if (!this->Surface().Deforms())
+  {
+    const auto [a, b, c] = this->Geometry().CornersOf(triangle);
+    this->Known.Learn(normal, a, b, c);
+  }
 }
 
 bool WorkingSet::Covers(const ActivePlane& plane, const Vector& position,

@@ -2,6 +2,7 @@
 #define Haptics_WorkingSet_h
 
 #include "haptics/Contact/ActivePlanes.h"
+#include "haptics/Contact/InsideOfFacet.h"
 #include "haptics/Contact/NarrowGap.h"
 #include "haptics/Contact/Neighbourhood.h"
 #include "haptics/Contact/SideKeeper.h"
@@ -104,6 +105,13 @@ public:
   /// place has more triangles than fit: then nothing may move.
   bool FindFirstHit(
     const Vector& goal, const ActivePlanes& active, WorkBudget& budget, FacetHit& hit);
+
+  /// Whether a motion stays where it is known that no facet is: it is certified then.
+  bool IsKnownEmpty(const Vector& target)
+  {
+    return !this->Geometry().IsSweeping() &&
+      this->Near.PassesThroughNothing(this->ToSurface.PointToLocal(target));
+  }
 
   /// Certifies a motion to `target`, on the way to the goal of the last FindFirstHit and no farther
   /// than its hit: true only if it touches no facet from the side that can be touched. Exact.
@@ -223,11 +231,13 @@ private:
   bool Covers(const FacetId& facet, const Vector& normal, double clearance, double wayError,
     const Vector& x, const ActivePlanes& planes) const;
   Coverage CoverageAt(const ActivePlane& plane, const Vector& position, Vector& nearest) const;
+  void LearnInside(std::int32_t triangle, const Vector& normal) const;
 
   std::int32_t Index;
   SurfaceFrame ToSurface;
   Neighbourhood Near;
-  bool IsSweepClear = false; ///< to the target
+  bool IsSweepClear = false;   ///< to the target
+  mutable InsideOfFacet Known; ///< of the last facet that was asked of often
   /// Of a patch: how often the god-object is to be enclosed, and is not, or is not known to be.
   std::optional<Enclosed> Owed;
 };
