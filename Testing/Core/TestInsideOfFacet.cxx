@@ -57,7 +57,8 @@ TEST(InsideOfFacet, SaysNoMoreThanTheFacetItself)
         const Vector from[3] = { a, b, c };
         const Vector along = glm::mix(from[k % 3], from[(k + 1) % 3], v);
         x = along +
-          4.0 * Own * share(random) * glm::normalize(glm::cross(facet.Normal, from[(k + 1) % 3] - from[k % 3]));
+          4.0 * Own * share(random) *
+            glm::normalize(glm::cross(facet.Normal, from[(k + 1) % 3] - from[k % 3]));
       }
       const bool isInside = At(facet, x) == Coverage::Inside;
       const bool isKnown = learned.Has(7, Own, x);

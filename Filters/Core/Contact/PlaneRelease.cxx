@@ -81,14 +81,33 @@ Vector Across(const Vector& ahead, const Vector& wish)
     : glm::normalize(axis - glm::dot(axis, ahead) * ahead);
 }
 
-/// The planes that a god-object tries to go along.
+/// The planes that a god-object tries to go along from where it is, on the way to a goal.
 struct Tries
 {
+  Vector Position;
+  Vector Pull; ///< to the goal
+  double PullLength;
   std::array<ActivePlane, MostPlanesAtRest> Planes;
+  /// From each of those that hold to where a try ends behind it, across the plane.
+  std::array<double, 3> ToBehind;
   int Most = MostPlanes;
   int Held = 0; ///< so many of them hold it, the first
   int Size = 0;
 
+  Tries(const Vector& position, const Vector& pull)
+    : Position(position)
+    , Pull(pull)
+    , PullLength(glm::length(pull))
+  {
+  }
+
+  void AddHolding(const ActivePlane& plane)
+  {
+    this->ToBehind[this->Held] =
+      glm::dot(plane.Normal, this->Position - plane.Anchor) + DepthBehind * plane.Clearance;
+    this->Planes[this->Held++] = plane;
+    this->Size = this->Held;
+  }
   void Add(const ActivePlane& plane)
   {
     const bool isKnown = std::any_of(this->Planes.begin(), this->Planes.begin() + this->Size,
@@ -99,17 +118,19 @@ struct Tries
     }
   }
 
-  /// From `position` along none, one or two planes (-1: none) as far as it takes to be behind those
-  /// that hold and are not gone along. False where that leads no nearer to the goal.
-  bool FindStep(
-    const Vector& position, const Vector& pull, int first, int second, Vector& step) const
+  /// Along none, one or two planes (-1: none) as far as it takes to be behind those that hold and
+  /// are not gone along. False where that leads no nearer to the goal.
+  /// `isForward`: along the cross product of the two planes' normals.
+  bool FindStep(int first, int second, Vector& step, bool& isForward) const
   {
-    Vector along = pull;
+    Vector along = this->Pull;
     if (second >= 0)
     {
       const Vector crease = glm::cross(this->Planes[first].Normal, this->Planes[second].Normal);
       const double squared = SquaredLength(crease);
-      along = squared > 1e-20 ? (glm::dot(pull, crease) / squared) * crease : Vector(0.0);
+      const double forward = glm::dot(along, crease);
+      isForward = forward > 0.0;
+      along = squared > 1e-20 ? (forward / squared) * crease : Vector(0.0);
     }
     else if (first >= 0)
     {
@@ -117,7 +138,7 @@ struct Tries
       along -= glm::dot(along, normal) * normal;
     }
     const double reach = glm::length(along);
-    if (!(reach > LeastDescent * glm::length(pull)))
+    if (!(reach > LeastDescent * this->PullLength))
     {
       return false;
     }
@@ -125,12 +146,10 @@ struct Tries
     double length = this->Held == 0 ? reach : 0.0;
     for (int i = 0; i < this->Held; ++i)
     {
-      const ActivePlane& plane = this->Planes[i];
-      const double approach = -glm::dot(plane.Normal, along);
+      const double approach = -glm::dot(this->Planes[i].Normal, along);
       if (i != first && i != second && approach > 1e-6)
       {
-        const double height = glm::dot(plane.Normal, position - plane.Anchor);
-        length = std::max(length, (height + DepthBehind * plane.Clearance) / approach);
+        length = std::max(length, this->ToBehind[i] / approach);
       }
     }
     if (first < 0)
@@ -164,7 +183,7 @@ bool PlaneRelease::Release(const Vector& goal)
     return false;
   }
   --this->Left;
-  Tries tries;
+  Tries tries(this->God.Position, pull);
   for (int i = 0; i < this->God.Active.SupportSize(); ++i)
   {
     const ActivePlane& plane = this->God.Active.Support(i);
@@ -172,15 +191,13 @@ bool PlaneRelease::Release(const Vector& goal)
     {
       return false; // it is let go of where the goal is in plain view
     }
-    tries.Add(plane);
+    tries.AddHolding(plane);
   }
-  tries.Held = tries.Size;
-  const auto tryStep = [&](const Vector& step)
+  const auto tryStep = [&](const Vector& step, ActivePlane& inTheWay)
   {
     const Vector to = this->God.Position + step;
     for (std::size_t i = this->God.Around.First; i < this->God.Around.Last; ++i)
     {
-      ActivePlane inTheWay;
       if (!this->God.Around.Sets[i].IsClearNear(to, inTheWay))
       {
         if (inTheWay.Facet.Triangle >= 0)
@@ -198,10 +215,33 @@ bool PlaneRelease::Release(const Vector& goal)
     this->God.Active.Clear();
     return true;
   };
+  const bool isAtRest = this->God.Around.IsOneAtRest();
   const auto attempt = [&](int first, int second)
   {
     Vector step;
-    return tries.FindStep(this->God.Position, pull, first, second, step) && tryStep(step);
+    bool isForward = false;
+    if (!tries.FindStep(first, second, step, isForward))
+    {
+      return false;
+    }
+    ActivePlane inTheWay;
+    if (second < 0 || !isAtRest)
+    {
+      return tryStep(step, inTheWay);
+    }
+    const auto crease =
+      BlockedCreases::KeyOf(tries.Planes[first].Facet, tries.Planes[second].Facet, isForward);
+    if (const ActivePlane* const known = this->Blocked.Find(crease))
+    {
+      tries.Add(*known);
+      return false;
+    }
+    const bool isMade = tryStep(step, inTheWay);
+    if (!isMade && inTheWay.Facet.Triangle >= 0)
+    {
+      this->Blocked.Add(crease, inTheWay);
+    }
+    return isMade;
   };
   int tried = 0;
   const auto attemptAll = [&]
@@ -249,7 +289,8 @@ bool PlaneRelease::Release(const Vector& goal)
       {
         return false; // this, and all that come after it, would go on beyond the foot of the goal
       }
-      if (tries.IsBehindOne(this->God.Position + step) && tryStep(step))
+      ActivePlane inTheWay;
+      if (tries.IsBehindOne(this->God.Position + step) && tryStep(step, inTheWay))
       {
         return true;
       }
@@ -349,6 +390,10 @@ bool PlaneRelease::MayBeReleased(const Vector& pull)
   // A moving goal has fewer tries: where it comes to rest, the others are due.
   const bool isDue = !isSame || (isAtRest && this->Refused.Rounds < RoundsAtRest);
   this->Refused.Rounds += isDue && isAtRest ? 1 : 0;
+  if (isDue)
+  {
+    this->Blocked.StandAt(localPosition, same, facets);
+  }
   return isDue;
 }
 }

@@ -1,6 +1,7 @@
 #ifndef Haptics_PlaneRelease_h
 #define Haptics_PlaneRelease_h
 
+#include "haptics/Contact/BlockedCreases.h"
 #include "haptics/Contact/GodObjectState.h"
 
 #include <array>
@@ -41,6 +42,7 @@ private:
   bool IsNoGap(const Vector& to);
 
   GodObjectState& God;
+  BlockedCreases Blocked;
 };
 }
 

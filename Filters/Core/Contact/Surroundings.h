@@ -56,6 +56,12 @@ public:
       this->Sets.begin(), this->Sets.end(), [](const WorkingSet& set) { return set.IsAstray(); });
   }
   ///@}
+  /// Whether one surface alone counts, which neither moves nor deforms.
+  bool IsOneAtRest() const
+  {
+    return this->Last - this->First == 1 && !this->Surfaces[this->First].Motion &&
+      !this->Sets[this->First].Surface().Deforms();
+  }
   bool IsOnSameSide(const Vector& other);
 
   /// The first facet that any surface has in the way. False: more to look at than a tick may.
