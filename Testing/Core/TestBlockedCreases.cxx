@@ -17,44 +17,50 @@ ActivePlane PlaneOf(const FacetId& facet)
 }
 }
 
-TEST(BlockedCreases, ACreaseIsTheSameInEitherOrder)
+TEST(BlockedCreases, AreThoseOfTheSameStepAlongTheSameTwoPlanes)
 {
-  // The cross product of the normals turns round with their order.
-  EXPECT_EQ(BlockedCreases::KeyOf(A, B, true), BlockedCreases::KeyOf(B, A, false));
-  EXPECT_EQ(BlockedCreases::KeyOf(A, B, false), BlockedCreases::KeyOf(B, A, true));
-  EXPECT_NE(BlockedCreases::KeyOf(A, B, true), BlockedCreases::KeyOf(A, B, false));
-  EXPECT_NE(BlockedCreases::KeyOf(A, B, true), BlockedCreases::KeyOf(A, C, true));
-  EXPECT_NE(BlockedCreases::KeyOf(A, C, true), BlockedCreases::KeyOf(B, C, true));
+  const Vector step(1e-9, 2e-9, 0.0);
+  BlockedCreases blocked;
+  EXPECT_EQ(blocked.Find(A, B, step), nullptr);
+  blocked.Add(A, B, step, PlaneOf(C));
+  ASSERT_NE(blocked.Find(A, B, step), nullptr);
+  EXPECT_TRUE(blocked.Find(A, B, step)->Facet == C);
+  EXPECT_NE(blocked.Find(B, A, step * (1.0 + 1e-15)), nullptr); // in either order, but for rounding
+  EXPECT_EQ(blocked.Find(A, B, -step), nullptr);
+  EXPECT_EQ(blocked.Find(A, C, step), nullptr);
+  EXPECT_EQ(blocked.Find(B, C, step), nullptr);
+  // A facet that is a line to within rounding has no plane of its own.
+  EXPECT_EQ(blocked.Find(A, B, step + Vector(0.0, 0.0, 1e-11)), nullptr);
+  blocked.Add(A, B, -step, PlaneOf(A));
+  EXPECT_TRUE(blocked.Find(A, B, step)->Facet == C);
+  EXPECT_TRUE(blocked.Find(A, B, -step)->Facet == A);
 }
 
 TEST(BlockedCreases, AreForgottenElsewhere)
 {
   const Vector place(1.0, 2.0, 3.0);
-  const auto forward = BlockedCreases::KeyOf(A, B, true);
+  const Vector step(0.0, 0.0, 1e-9);
   BlockedCreases blocked;
   blocked.StandAt(place, 1e-9, { A, B, C });
-  EXPECT_EQ(blocked.Find(forward), nullptr);
-  blocked.Add(forward, PlaneOf(C));
-  ASSERT_NE(blocked.Find(forward), nullptr);
-  EXPECT_TRUE(blocked.Find(forward)->Facet == C);
-  EXPECT_EQ(blocked.Find(BlockedCreases::KeyOf(A, B, false)), nullptr);
+  blocked.Add(A, B, step, PlaneOf(C));
   blocked.StandAt(place + Vector(0.0, 0.9e-9, 0.0), 1e-9, { A, B, C });
-  EXPECT_NE(blocked.Find(forward), nullptr);
+  EXPECT_NE(blocked.Find(A, B, step), nullptr);
   // No nearer to where that was found by steps than at once.
   blocked.StandAt(place + Vector(0.0, 1.8e-9, 0.0), 1e-9, { A, B, C });
-  EXPECT_EQ(blocked.Find(forward), nullptr);
-  blocked.Add(forward, PlaneOf(C));
+  EXPECT_EQ(blocked.Find(A, B, step), nullptr);
+  blocked.Add(A, B, step, PlaneOf(C));
   blocked.StandAt(place + Vector(0.0, 1.8e-9, 0.0), 1e-9, { A, B, FacetId{ 0, 10 } });
-  EXPECT_EQ(blocked.Find(forward), nullptr);
+  EXPECT_EQ(blocked.Find(A, B, step), nullptr);
 }
 
 TEST(BlockedCreases, OfMoreThanFitTheFirstAreKept)
 {
+  const Vector step(0.0, 0.0, 1e-9);
   BlockedCreases blocked;
   for (int i = 1; i < 100; ++i)
   {
-    blocked.Add(BlockedCreases::KeyOf({ 0, 0 }, { 0, i }, true), PlaneOf(A));
+    blocked.Add({ 0, 0 }, { 0, i }, step, PlaneOf(A));
   }
-  EXPECT_NE(blocked.Find(BlockedCreases::KeyOf({ 0, 0 }, { 0, 1 }, true)), nullptr);
-  EXPECT_EQ(blocked.Find(BlockedCreases::KeyOf({ 0, 0 }, { 0, 99 }, true)), nullptr);
+  EXPECT_NE(blocked.Find({ 0, 0 }, { 0, 1 }, step), nullptr);
+  EXPECT_EQ(blocked.Find({ 0, 0 }, { 0, 99 }, step), nullptr);
 }

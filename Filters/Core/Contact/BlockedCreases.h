@@ -29,38 +29,48 @@ public:
     }
   }
 
-  /// A crease, and the direction along it.
-  using Key = std::uint64_t;
-  /// `isForward`: along the cross product of the two planes' normals.
-  static Key KeyOf(const FacetId& first, const FacetId& second, bool isForward)
+  /// The plane of the facet that a step along the crease of two facets' planes meets, or null: not
+  /// known to meet one.
+  const ActivePlane* Find(const FacetId& first, const FacetId& second, const Vector& step) const
   {
-    const auto a = static_cast<Key>(first.Triangle);
-    const auto b = static_cast<Key>(second.Triangle);
-    const bool isInOrder = a < b;
-    return Key(isForward == isInOrder) << 63 | std::min(a, b) << 32 | std::max(a, b);
+    const Key key = KeyOf(first, second);
+    for (int i = 0; i < this->Count; ++i)
+    {
+      // A thin facet's plane may be another one now.
+      if (this->Keys[i] == key &&
+        SquaredLength(step - this->Steps[i]) <= SquaredLength(SameStep * step))
+      {
+        return &this->Met[i];
+      }
+    }
+    return nullptr;
   }
-  /// The plane of the facet that was met, or null: not known to meet one.
-  const ActivePlane* Find(Key key) const
-  {
-    const auto end = this->Keys.begin() + this->Count;
-    const auto found = std::find(this->Keys.begin(), end, key);
-    return found == end ? nullptr : &this->Met[found - this->Keys.begin()];
-  }
-  void Add(Key key, const ActivePlane& met)
+  void Add(const FacetId& first, const FacetId& second, const Vector& step, const ActivePlane& met)
   {
     if (this->Count < Capacity)
     {
-      this->Keys[this->Count] = key;
+      this->Keys[this->Count] = KeyOf(first, second);
+      this->Steps[this->Count] = step;
       this->Met[this->Count++] = met;
     }
   }
 
 private:
-  static constexpr int Capacity = 32; ///< two of eight planes
+  static constexpr int Capacity = 32; ///< two of eight planes, and some
+  static constexpr double SameStep = 1e-6;
+
+  using Key = std::uint64_t;
+  static Key KeyOf(const FacetId& first, const FacetId& second)
+  {
+    const auto a = static_cast<Key>(first.Triangle);
+    const auto b = static_cast<Key>(second.Triangle);
+    return std::min(a, b) << 32 | std::max(a, b);
+  }
 
   Vector Place{ 0 };
   std::array<FacetId, 3> Holding; ///< the god-object there
   std::array<Key, Capacity> Keys;
+  std::array<Vector, Capacity> Steps;
   std::array<ActivePlane, Capacity> Met;
   int Count = 0;
 };

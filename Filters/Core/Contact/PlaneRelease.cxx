@@ -120,17 +120,14 @@ struct Tries
 
   /// Along none, one or two planes (-1: none) as far as it takes to be behind those that hold and
   /// are not gone along. False where that leads no nearer to the goal.
-  /// `isForward`: along the cross product of the two planes' normals.
-  bool FindStep(int first, int second, Vector& step, bool& isForward) const
+  bool FindStep(int first, int second, Vector& step) const
   {
     Vector along = this->Pull;
     if (second >= 0)
     {
       const Vector crease = glm::cross(this->Planes[first].Normal, this->Planes[second].Normal);
       const double squared = SquaredLength(crease);
-      const double forward = glm::dot(along, crease);
-      isForward = forward > 0.0;
-      along = squared > 1e-20 ? (forward / squared) * crease : Vector(0.0);
+      along = squared > 1e-20 ? (glm::dot(along, crease) / squared) * crease : Vector(0.0);
     }
     else if (first >= 0)
     {
@@ -219,8 +216,7 @@ bool PlaneRelease::Release(const Vector& goal)
   const auto attempt = [&](int first, int second)
   {
     Vector step;
-    bool isForward = false;
-    if (!tries.FindStep(first, second, step, isForward))
+    if (!tries.FindStep(first, second, step))
     {
       return false;
     }
@@ -229,9 +225,9 @@ bool PlaneRelease::Release(const Vector& goal)
     {
       return tryStep(step, inTheWay);
     }
-    const auto crease =
-      BlockedCreases::KeyOf(tries.Planes[first].Facet, tries.Planes[second].Facet, isForward);
-    if (const ActivePlane* const known = this->Blocked.Find(crease))
+    const FacetId& one = tries.Planes[first].Facet;
+    const FacetId& other = tries.Planes[second].Facet;
+    if (const ActivePlane* const known = this->Blocked.Find(one, other, step))
     {
       tries.Add(*known);
       return false;
@@ -239,7 +235,7 @@ bool PlaneRelease::Release(const Vector& goal)
     const bool isMade = tryStep(step, inTheWay);
     if (!isMade && inTheWay.Facet.Triangle >= 0)
     {
-      this->Blocked.Add(crease, inTheWay);
+      this->Blocked.Add(one, other, step, inTheWay);
     }
     return isMade;
   };

@@ -541,16 +541,17 @@ Coverage WorkingSet::CoverageAt(
     this->Geometry().CoverageAt(triangle, normal, plane.Clearance, 0.0, x, nearest);
   if (coverage == Coverage::Inside && this->Known.IsWorthLearning(triangle, own))
   {
-    this->LearnInside(triangle, normal);
+    this->LearnInside(triangle, normal, plane.Clearance);
   }
   return coverage;
 }
 
-void WorkingSet::LearnInside(std::int32_t triangle, const Vector& normal) const
+/// Not of a facet so thin that its plane is another one each time it is met.
+void WorkingSet::LearnInside(std::int32_t triangle, const Vector& normal, double clearance) const
 {
-  if (!this->Surface().Deforms())
+  const auto [a, b, c] = this->Geometry().CornersOf(triangle);
+  if (!this->Surface().Deforms() && Facet(a, b, c).SmallestHeight >= clearance)
   {
-    const auto [a, b, c] = this->Geometry().CornersOf(triangle);
     this->Known.Learn(normal, a, b, c);
   }
 }

@@ -231,7 +231,7 @@ private:
   bool Covers(const FacetId& facet, const Vector& normal, double clearance, double wayError,
     const Vector& x, const ActivePlanes& planes) const;
   Coverage CoverageAt(const ActivePlane& plane, const Vector& position, Vector& nearest) const;
-  void LearnInside(std::int32_t triangle, const Vector& normal) const;
+  void LearnInside(std::int32_t triangle, const Vector& normal, double clearance) const;
 
   std::int32_t Index;
   SurfaceFrame ToSurface;
