@@ -507,6 +507,77 @@ TEST(GodObject, PlacedItMovesTheSameToTheLastDigitWhateverWasBefore)
   EXPECT_EQ(positions(used), expected);
 }
 
+// The same where corners and edges hold, and over facets as thin as the crack width, whose planes
+// are turned to where they are met from.
+TEST(GodObject, PlacedAmongCornersAndThinFacetsItMovesTheSameWhateverWasBefore)
+{
+  std::mt19937 random(41);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  int touched = 0;
+  for (int trial = 0; trial < 300; ++trial)
+  {
+    TriangleMesh mesh;
+    SurfaceOptions options;
+    options.TouchedSide = trial % 2 ? Side::Front : Side::Both;
+    const int kind = trial % 3;
+    if (kind == 0)
+    {
+      mesh = trial % 4 ? Star(2, 0.7, 0.6, static_cast<unsigned>(trial)) : Soup(60, 0.4, 3);
+    }
+    else
+    {
+      // Half to one clearance wide, which is a quarter of the crack width: one, or one with
+      // another.
+      options.CrackWidth = 0.012;
+      const double width = 0.00225 + 0.00075 * uniform(random);
+      mesh.Points = { { -0.5, 0, 0 }, { 0.5, 0, 0 }, { 0.4 * uniform(random), width, 0 },
+        { 0.4 * uniform(random), 0.5 * width, -1.0 } };
+      mesh.Triangles = { { 0, 1, 2 } };
+      if (kind == 2)
+      {
+        mesh.Triangles.push_back({ 1, 0, 3 });
+      }
+    }
+    std::string error;
+    const auto surface = TriangleSurface::Build(std::move(mesh), options, error);
+    ASSERT_TRUE(surface) << error;
+    // Pressed from above, with small slides; left; and passed by.
+    const double depth = kind == 0 ? 0.4 : 0.01;
+    const double around = kind == 0 ? 0.3 : 0.001;
+    const Vec3 foot = { 0.4 * uniform(random), kind == 0 ? 0.0 : 0.0015, 0.0 };
+    const Vec3 start = { foot[0], foot[1] - 0.05, 0.9 };
+    const Vec3 past = { foot[0], foot[1] + 0.05 * uniform(random), -0.09 };
+    const auto press = [&](GodObject& god, int ticks)
+    {
+      for (int tick = 0; tick < ticks; ++tick)
+      {
+        god.Update({ foot[0] + around * std::sin(1.3 * tick), foot[1] + 0.1 * around * (tick % 3),
+          -depth + 1e-3 * depth * (tick % 5) });
+      }
+    };
+    const auto positions = [&](GodObject& god)
+    {
+      std::vector<Vec3> all;
+      god.Place(start);
+      for (int tick = 0; tick < 12; ++tick)
+      {
+        all.push_back(god.Update(past).Position);
+      }
+      press(god, 4);
+      all.push_back(god.Current().Position);
+      touched += god.Current().IsTouching() ? 1 : 0;
+      return all;
+    };
+    GodObject unused({ surface });
+    const std::vector<Vec3> expected = positions(unused);
+    GodObject used({ surface });
+    used.Place({ foot[0], foot[1], 0.9 });
+    press(used, 40);
+    ASSERT_EQ(positions(used), expected) << "trial " << trial;
+  }
+  EXPECT_GT(touched, 50);
+}
+
 TEST(GodObject, IsFreeWithoutSurfaces)
 {
   GodObject god({});

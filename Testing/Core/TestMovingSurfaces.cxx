@@ -214,6 +214,13 @@ TEST(MovingSurfaces, SqueezeWithoutForceAndLetGoOnTheSameSide)
     const Contact contact = lower(0.001 + 0.001 * tick);
     ASSERT_EQ(contact.Status, UpdateStatus::Touching);
     ASSERT_NEAR(contact.Position[2], 0.0, Tight);
+    // Its way begins where the two came together, not at the hand, below what holds it.
+    int corners = 0;
+    const Vec3* const way = god.Way(corners);
+    for (int i = 0; i < corners; ++i)
+    {
+      ASSERT_NEAR(way[i][2] + god.WayOrigin()[2], 0.0, Tight) << "tick " << tick << ", " << i;
+    }
   }
 }
 

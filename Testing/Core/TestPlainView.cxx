@@ -711,6 +711,52 @@ TEST(PlainView, ACornerOfSpikesDoesNotHoldAHandAtRest)
   }
 }
 
+// A facet thinner than its clearance is met as a line, by a plane that is turned to where it is met
+// from: what was learned of it where it was pressed from above says nothing of where it is passed
+// by.
+TEST(PlainView, AFacetThatWasPressedHoldsNothingWhereItIsPassedBy)
+{
+  const double width = 0.0029258720933541690;
+  TriangleMesh mesh;
+  mesh.Points = { { -0.5, 0, 0 }, { 0.5, 0, 0 }, { -0.064659218944795385, width, 0 } };
+  mesh.Triangles = { { 0, 1, 2 } };
+  for (const Side side : { Side::Front, Side::Both })
+  {
+    SurfaceOptions options;
+    options.TouchedSide = side;
+    options.CrackWidth = 0.012;
+    std::string error;
+    const auto surface = TriangleSurface::Build(mesh, options, error);
+    ASSERT_TRUE(surface) << error;
+    const ExactQueries exact(surface);
+    int passed = 0;
+    for (int i = 0; i < 121; ++i)
+    {
+      GodObject god({ surface });
+      const double x = -0.064215624984843192;
+      god.Place({ x, 0.0013277054127025442, 0.1 });
+      for (int tick = 0; tick < 12; ++tick)
+      {
+        god.Update({ x + (tick % 2 ? 2e-3 : -2e-3), 0.5 * width + 1e-4 * (tick % 3 - 1), -0.006 });
+      }
+      god.Update({ x, -0.044231605704643982, 0.088949473602359094 });
+      const double aside = 5e-5 * (i - 60);
+      const Vec3 hip = { -0.064570996646709705, 0.047644221149713895 + 0.88 * aside,
+        -0.084202492003628698 + 0.47 * aside };
+      for (int tick = 0; tick < 4; ++tick)
+      {
+        god.Update(hip);
+      }
+      if (!exact.Crosses(god.LocalPosition(0), hip - surface->Origin()))
+      {
+        EXPECT_LE(god.Current().Penetration, 8.0 * surface->Clearance()) << i;
+        ++passed;
+      }
+    }
+    EXPECT_GT(passed, 50);
+  }
+}
+
 // GodObject.h's theorem, with its number: in plain view the god-object is at the HIP, to within 8
 // clearances, in that update or in the next ones at rest.
 TEST(PlainView, IsReachedToWithinEightClearances)

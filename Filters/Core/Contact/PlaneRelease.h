@@ -23,6 +23,12 @@ public:
 
   /// True if a motion was made: the next pass goes on from there.
   bool Release(const Vector& goal);
+  /// What was refused, and which creases are blocked.
+  void Forget()
+  {
+    this->Refused = {};
+    this->Blocked = {};
+  }
 
   /// What was refused before, in the frame of the first surface that held.
   struct Refusal

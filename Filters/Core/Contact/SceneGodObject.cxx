@@ -13,7 +13,7 @@ void SceneGodObject::Place(const Vector& position)
   this->God.Cone.Reset();
   this->LastHip = position;
   this->God.HipBefore = position;
-  this->Planes.Refused = {};
+  this->Planes.Forget();
   this->God.Around.IsFit = false;
   for (BallSet& ball : this->God.Around.Balls)
   {
@@ -46,9 +46,13 @@ void SceneGodObject::Update(const Vector& hip)
   this->LastHip = hip;
   const Vector from = this->God.HipBefore;
   this->God.HipBefore = hip;
-  if (this->God.IsSplit && !this->Moving.Join(hip))
+  if (this->God.IsSplit)
   {
-    return;
+    if (!this->Moving.Join(hip))
+    {
+      return;
+    }
+    this->God.Way[0] = ToVec3(this->God.Position); // where it is one again
   }
   this->Walker.Begin();
   if (this->Follower.SubstepsAllowed > 1 && from != hip && !this->God.Around.IsBall())

@@ -59,6 +59,7 @@ void WorkingSet::Restart(const Vector& position)
 {
   this->Place(position);
   this->Owed.reset();
+  this->Known = {};
   this->Near.ForgetLearned();
 }
 
