@@ -136,6 +136,17 @@ public:
     }
     return true;
   }
+  /// Whether a place is in a triangle's box, grown by `reach`.
+  bool IsInBox(std::int32_t i, const Vector& x, double reach) const
+  {
+    bool isIn = true;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      isIn =
+        isIn && x[axis] >= this->Low[axis][i] - reach && x[axis] <= this->High[axis][i] + reach;
+    }
+    return isIn;
+  }
   /// Distance from Position() to the nearest plane, less its error.
   double NearestPlane() const { return this->Nearest; }
 

@@ -14,6 +14,9 @@ namespace
 {
 /// Heights that differ by less than so many clearances may do so by rounding.
 constexpr double SlackOfHeight = 1.0 / 16.0;
+/// A facet covers a place half a clearance over its plane, or less, from no farther than so many
+/// clearances: those that it reaches over gaps, and one for a thin one's plane, which is another.
+constexpr double FarthestCovered = GrowthOverGaps + 2.0;
 /// Of facets met at once so many are compared.
 constexpr int LargestNumberAtOnce = 32;
 /// Facets of two surfaces lie along each other up to a thousandth of a radian, and from 1.8 degrees
@@ -381,12 +384,13 @@ void WorkingSet::Scan(const Vector& to, const ActivePlanes& active, FacetHit& hi
     const Vector normal = facets.Normal(i);
     const double enter = std::max(0.0, (here - 0.5 * clearance) / approach);
     const double cross = std::clamp(here / approach, 0.0, 1.0);
-    const bool meets = (!isActive &&
-                         this->Covers(id, normal, clearance, wayError,
-                           this->LocalPosition() + enter * way, active)) ||
-      (there <= 0.0 &&
-        this->Covers(id, normal, clearance, wayError, this->LocalPosition() + cross * way, active));
-    if (!meets)
+    const auto coversAt = [&](double part)
+    {
+      const Vector x = this->LocalPosition() + part * way;
+      return facets.IsInBox(i, x, FarthestCovered * clearance + 2.0 * wayError) &&
+        this->Covers(id, normal, clearance, wayError, x, active);
+    };
+    if (!(!isActive && coversAt(enter)) && !(there <= 0.0 && coversAt(cross)))
     {
       return;
     }
