@@ -539,7 +539,13 @@ void pqHapticsManager::setEngaged(bool engaged)
 bool pqHapticsManager::followActiveView()
 {
   pqView* active = pqActiveObjects::instance().activeView();
-  if (!this->Scene || !qobject_cast<pqRenderView*>(active) || active == this->View)
+  if (!this->Scene || !qobject_cast<pqRenderView*>(active))
+  {
+    return false;
+  }
+  // An undo takes the view from the scene, too.
+  if (active == this->View &&
+    vtkSMPropertyHelper(this->Scene, "View").GetAsProxy() == active->getProxy())
   {
     return false;
   }

@@ -54,6 +54,29 @@ def show(hand):
 """
 )
 
+# A view in which nothing is shown yet.
+EMPTY = window_scene.PRINT + """
+from paraview import servermanager
+from paraview.simple import *
+
+view = GetActiveViewOrCreate("RenderView")
+
+
+def report(*_):
+    drawn = [display.Input.SMProxy for display in view.Representations if hasattr(display, "Input")
+             and display.Visibility]
+    print("SHOWN", *sorted(name for (name, _), source in GetSources().items() if source.SMProxy in drawn))
+    proxy = servermanager.ProxyManager().GetProxy("haptics", "HapticScene")
+    if proxy:
+        proxy.UpdatePropertyInformation()
+        print(f"STATE {servermanager._getPyProxy(proxy).State} | 0 | 0 | False | [] | 0")
+
+
+view.GetRenderWindow().AddObserver("EndEvent", report)
+Render()
+print("READY")
+"""
+
 
 class Hand:
     """The last state that ParaView has reported."""
@@ -78,7 +101,10 @@ class Hand:
 
     def shown(self):
         """The names of the sources that the view shows."""
-        return re.findall(r"^SHOWN (.*)$", self.program.output(), re.M)[-1].split()
+        return re.findall(r"^SHOWN(.*)$", self.program.output(), re.M)[-1].split()
+
+    def wait_shown(self, *names):
+        real_window.wait_for(lambda: self.shown() == list(names), SECONDS, f"{names}; shown is {self.shown()}")
 
     def wait(self, condition, what):
         real_window.wait_for(lambda: condition(*self.state()), SECONDS, f"{what}; it is {self.state()}")
@@ -265,17 +291,46 @@ def touch_a_contour(desktop, program):
     hand.wait(lambda state, *_: state == "Released", "Engage to release")
 
 
-def main():
-    real_window.skip_where_it_cannot_run()
-    with window_scene.home(SCENE) as (_, script), real_window.Desktop() as desktop:
+def touch_what_is_applied_again(desktop, program):
+    """A source is made, touched, and undone to before it was applied; applied again it can be touched again."""
+    hand = Hand(program)
+    program.says("READY", SECONDS)
+    program.key("ctrl+space")
+    real_window.wait_for(lambda: desktop.xdo("getwindowfocus") != program.window, SECONDS, "the search of sources")
+    desktop.xdo("type", "--delay", "50", "Sphere")
+    time.sleep(0.5)
+    program.key("shift+Return")
+    time.sleep(1.0)
+    program.key("alt+a")
+    hand.wait_shown("Sphere1")
+    program.key("ctrl+shift+t")
+    hand.wait(lambda state, *_: state.startswith("Engaged"), "Touch")
+    program.key("ctrl+z")  # Touch
+    time.sleep(2.0)
+    program.key("ctrl+z")  # Apply
+    hand.wait_shown()
+    program.key("alt+a")
+    hand.wait_shown("Sphere1")
+    program.key("ctrl+shift+t")
+    hand.wait(lambda state, *_: state.startswith("Engaged"), "Touch of what is applied again")
+
+
+def run(scene, test):
+    with window_scene.home(scene) as (_, script), real_window.Desktop() as desktop:
         program = desktop.start([PARAVIEW, "--dr", f"--plugin-search-paths={os.path.dirname(PLUGIN)}",
                                  "--plugins=Haptics", f"--script={script}"], "ParaView", SECONDS)
         try:
-            touch_a_contour(desktop, program)
+            test(desktop, program)
         except AssertionError:
             print(program.output())
             raise
         program.process.terminate()
+
+
+def main():
+    real_window.skip_where_it_cannot_run()
+    run(SCENE, touch_a_contour)
+    run(EMPTY, touch_what_is_applied_again)
 
 
 main()
