@@ -110,12 +110,16 @@ def test_touches_with_the_mouse_and_replays_it(folder):
     again = os.path.join(folder, "again.vtp")
     done = viewer(surface, *common, "--device", trace, "--trace", again)
     assert done.returncode == 0, done.stderr
-    arrays = [
-        vtk_to_numpy(read(path).GetPointData().GetArray("HapticInterfacePoint"))
-        for path in (trace, again)
-    ]
-    count = min(map(len, arrays)) - 2
-    assert abs(arrays[0][:count] - arrays[1][:count]).max() < 1e-3, "the recording is followed"
+    places, forces = (
+        [vtk_to_numpy(read(path).GetPointData().GetArray(name)) for path in (trace, again)]
+        for name in ("HapticInterfacePoint", "Force")
+    )
+    count = min(map(len, places)) - 2
+    assert abs(places[0][:count] - places[1][:count]).max() < 1e-3, "the recording is followed"
+    # The hand's space is not fitted anew: as deep as before is as strong as before, but while a press begins.
+    lengths = [np.linalg.norm(force[:count], axis=1) for force in forces]
+    same = abs(lengths[0] - lengths[1]) < 1e-3 * lengths[0].max()
+    assert lengths[0].max() > 0.5 and same[lengths[0] > 0.5].mean() > 0.95, (lengths, same.mean())
 
     done = viewer(
         surface, ball(1.1, folder), *common, "--scalars", "Height", "--side", "both",

@@ -51,6 +51,9 @@ def picture_of(
             write_polydata(files[1], trace.polydata)
             seconds = float(trace.time[-1] - trace.time[0])
             command += ["--device", files[1], "--seconds", str(min(max(0.7 * seconds, 2.0), 600.0))]
+            pressed = trace["Stiffness"][trace["Penetration"] > 0]
+            if len(pressed) and pressed.min() == pressed.max():
+                command += ["--stiffness", str(pressed[0])]
         if scalars:
             command += ["--scalars", scalars]
         done = subprocess.run(command, capture_output=True, text=True)

@@ -315,6 +315,10 @@ class Viewer:
     def _follow(self, path, loops=False):
         if not self.scene.FitWorkspace(path.GetBounds(), self.renderer.GetActiveCamera()):
             raise ViewerError(self.scene.GetErrorMessage())
+        scale = path.GetFieldData().GetArray("Scale")
+        if scale:  # of a recording: the same forces again
+            workspace = self.scene.GetWorkspace()
+            workspace.Scale(scale.GetValue(0) / workspace.GetScale())
         path = in_device_frame(path, self.scene.GetWorkspaceTransform())
         self.device.FollowPath(path, STROKE_SPEED, loops)
 
