@@ -232,6 +232,9 @@ def test_files(folder):
         return os.path.join(folder, name)
 
     missing = at("missing.vtp")
+    os.mkdir(at("nothing"))
+    follow("Give a file with a surface, or a folder with nothing but the slices", read(at("nothing")),
+           read(write_vtp(at("good.vtp"), ball())), read(file_kinds.write_dicom(at("slices"))))
     follow("there is no such file. Check the path", read(missing),
            lambda: read(write_vtp(missing, ball()))())
     locked = write_vtp(at("locked.vtp"), ball())

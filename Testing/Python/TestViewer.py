@@ -405,11 +405,15 @@ def test_bad_input(folder):
         pass
     fifo = os.path.join(folder, "fifo.stl")
     os.mkfifo(fifo)  # which nobody will ever write to
+    nothing = os.path.join(folder, "nothing.stl")
+    os.mkdir(nothing)
     for status, text, arguments in (
         (2, "no regular file", (fifo,)),
         (2, "no polygons", (lines,)),
         (2, "could not be read", (empty,)),
         (2, "no such file", (os.path.join(folder, "missing.stl"),)),
+        (2, "'': there is no such file", ("",)),
+        (2, "is a folder, and what is in it", (nothing,)),
         (2, "not known", (__file__,)),
         (2, "It has: ", (surface, "--scalars", "Hieght")),
         (1, "neither a device", (surface, "--device", "mice")),

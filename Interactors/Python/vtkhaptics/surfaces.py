@@ -322,7 +322,7 @@ def read_surface(path, progress=None, contour=None):
             f"{path}: a folder on the way to it may not be entered. Check the permissions of the folders."
         ) from None
     except (OSError, ValueError):
-        raise SurfaceError(f"{path}: there is no such file. Check the path.") from None
+        raise SurfaceError(f"{path or repr(path)}: there is no such file. Check the path.") from None
     if not os.access(path, os.R_OK):
         raise SurfaceError(f"{path}: may not be read. Check the file's permissions.")
     if not os.path.isfile(path) and not os.path.isdir(path):
@@ -380,9 +380,14 @@ def _read_unpacked(path, unpacked, progress, contour):
                     "are there, and save it again with the program that made it."
                 ) from error
         data, errors = read()
+    if errors and os.path.isdir(path):
+        raise SurfaceError(
+            f"{path}: is a folder, and what is in it cannot be read as the slices of a DICOM image: {errors[0]} "
+            "Give a file with a surface, or a folder with nothing but the slices."
+        )
     if errors:
         raise SurfaceError(
-            f"{path}: could not be read as {extension[1:].upper() or 'DICOM'}: {errors[0]} "
+            f"{path}: could not be read as {extension[1:].upper()}: {errors[0]} "
             "Check that the file is whole and that its extension is right."
             + (APPENDED_DATA_HINT if _has_appended_data(path, extension) else "")
         )
