@@ -15,8 +15,17 @@ import window_scene
 PLUGIN, PARAVIEW = sys.argv[1:]
 SECONDS = 60.0
 
+# What the view shows.
+SHOWN = """
+def print_shown():
+    drawn = [display.Input.SMProxy for display in view.Representations if hasattr(display, "Input")
+             and display.Visibility]
+    print("SHOWN", *sorted(name for (name, _), source in GetSources().items() if source.SMProxy in drawn))
+"""
+
 SCENE = window_scene.scene(
-    """
+    SHOWN + """
+
 import os
 import time
 
@@ -45,9 +54,7 @@ def show(hand):
     if ids:
         print("PAINTED", *sorted(ids.GetElement(i) for i in range(1, ids.GetNumberOfElements(), 2)))
     print("OUTSIDE", depth.EvaluateFunction(hand.HapticInterfacePoint))
-    drawn = [display.Input.SMProxy for display in view.Representations if hasattr(display, "Input")
-             and display.Visibility]
-    print("SHOWN", *sorted(name for (name, _), source in GetSources().items() if source.SMProxy in drawn))
+    print_shown()
     print(f"STATE {hand.State} | {hand.ForceMagnitude:.3f} | {hand.NumberOfLandmarks}"
           f" | {cells is not None} | {list(hand.HapticInterfacePoint)}"
           f" | {points}")
@@ -61,11 +68,10 @@ from paraview.simple import *
 
 view = GetActiveViewOrCreate("RenderView")
 
+""" + SHOWN + """
 
 def report(*_):
-    drawn = [display.Input.SMProxy for display in view.Representations if hasattr(display, "Input")
-             and display.Visibility]
-    print("SHOWN", *sorted(name for (name, _), source in GetSources().items() if source.SMProxy in drawn))
+    print_shown()
     proxy = servermanager.ProxyManager().GetProxy("haptics", "HapticScene")
     if proxy:
         proxy.UpdatePropertyInformation()

@@ -124,28 +124,12 @@ public:
   /// box says.
   bool MeetsBox(std::int32_t i, const Vector& to, double reach) const
   {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const double p = this->From[axis];
-      const double q = to[axis];
-      if (this->Low[axis][i] - reach > std::max(p, q) ||
-        this->High[axis][i] + reach < std::min(p, q))
-      {
-        return false;
-      }
-    }
-    return true;
+    return this->IsBoxMet(i, this->From, to, reach);
   }
-  /// Whether a place is in a triangle's box, grown by `reach`.
+  /// Whether a place is in that box.
   bool IsInBox(std::int32_t i, const Vector& x, double reach) const
   {
-    bool isIn = true;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      isIn =
-        isIn && x[axis] >= this->Low[axis][i] - reach && x[axis] <= this->High[axis][i] + reach;
-    }
-    return isIn;
+    return this->IsBoxMet(i, x, x, reach);
   }
   /// Distance from Position() to the nearest plane, less its error.
   double NearestPlane() const { return this->Nearest; }
@@ -170,6 +154,21 @@ public:
   Rims FindRims(double clearances) const;
 
 private:
+  /// By the box of a way from one place to another.
+  bool IsBoxMet(std::int32_t i, const Vector& from, const Vector& to, double reach) const
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double p = from[axis];
+      const double q = to[axis];
+      if (this->Low[axis][i] - reach > std::max(p, q) ||
+        this->High[axis][i] + reach < std::min(p, q))
+      {
+        return false;
+      }
+    }
+    return true;
+  }
   void FillRest();
   bool FillThin(std::int32_t i, const FacetBatch::Question& question);
   bool IsSeam(std::int32_t triangle, const Facet& facet, double clearance) const;

@@ -212,7 +212,7 @@ bool PlaneRelease::Release(const Vector& goal)
     this->God.Active.Clear();
     return true;
   };
-  const bool isAtRest = this->God.Around.IsOneAtRest();
+  const bool isSurfaceStill = this->God.Around.IsOneAtRest();
   const auto attempt = [&](int first, int second)
   {
     Vector step;
@@ -221,7 +221,7 @@ bool PlaneRelease::Release(const Vector& goal)
       return false;
     }
     ActivePlane inTheWay;
-    if (second < 0 || !isAtRest)
+    if (second < 0 || !isSurfaceStill)
     {
       return tryStep(step, inTheWay);
     }

@@ -335,25 +335,26 @@ def read_surface(path, progress=None, contour=None):
 
 
 def _read_unpacked(path, unpacked, progress, contour):
+    is_folder = os.path.isdir(path)
     lower = path.lower()
     packed = lower[: -len(".gz")] if lower.endswith(".gz") else lower
-    extension = "" if os.path.isdir(path) else os.path.splitext(packed)[1]
+    extension = "" if is_folder else os.path.splitext(packed)[1]
     read_cortex = None
     if extension == ".gii":
         read_cortex = cortices.read_gifti
-    elif extension not in FORMATS and not os.path.isdir(path) and cortices.is_freesurfer(unpacked):
+    elif extension not in FORMATS and not is_folder and cortices.is_freesurfer(unpacked):
         read_cortex = cortices.read_freesurfer
     if read_cortex:
         try:
             return read_cortex(unpacked)
         except NoSurfaceError as error:
             raise SurfaceError(f"{path}: {error}") from error
-    if not os.path.isdir(path) and extension not in FORMATS:
+    if not is_folder and extension not in FORMATS:
         raise SurfaceError(
             f"{path}: files of type '{extension}' are not known. "
             f"Convert it to one of {', '.join(FORMATS)}."
         )
-    if not os.path.isdir(path):
+    if not is_folder:
         _refuse_enormous(unpacked)
     if extension == ".ply" and _is_cut_ply(unpacked):
         raise SurfaceError(
@@ -380,7 +381,7 @@ def _read_unpacked(path, unpacked, progress, contour):
                     "are there, and save it again with the program that made it."
                 ) from error
         data, errors = read()
-    if errors and os.path.isdir(path):
+    if errors and is_folder:
         raise SurfaceError(
             f"{path}: is a folder, and what is in it cannot be read as the slices of a DICOM image: {errors[0]} "
             "Give a file with a surface, or a folder with nothing but the slices."
