@@ -299,14 +299,15 @@ void FacetTable::MeasureTarget(const Vector& to)
 {
   this->To = to;
   const Vector x = to - this->Middle;
+  std::uint64_t met = 0;
   for (std::int32_t i = 0; i < this->Count; i += RowsInMask)
   {
-    this->Met[i / RowsInMask] = DistancesUpTo(this->Limits.data() + i, x,
+    met |= this->Met[i / RowsInMask] = DistancesUpTo(this->Limits.data() + i, x,
       std::min(this->Count - i, RowsInMask), this->NormalX.data() + i, this->NormalY.data() + i,
       this->NormalZ.data() + i, this->PlaneOffset.data() + i, this->TargetDistances.data() + i);
   }
   this->IsToMeasured = true;
-  this->IsToClear = false;
+  this->IsToClear = met == 0;
 }
 
 void FacetTable::TurnToPosition()

@@ -67,8 +67,7 @@ public:
   /// Position has to be measured.
   void MeasureTarget(const Vector& target);
   void ForgetTarget() { this->IsToMeasured = false; }
-  /// Of the measured target: whether no facet can be touched on the way there, for certain.
-  void SetTargetClear(bool isClear) { this->IsToClear = isClear; }
+  /// Whether by the measured distances alone no facet can be met on the way there, nor touched.
   bool IsKnownClear(const Vector& target) const
   {
     return this->HasTarget(target) && this->IsToClear;

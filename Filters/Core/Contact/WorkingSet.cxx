@@ -340,8 +340,7 @@ bool WorkingSet::Sweeps(std::int32_t triangle, const Vector& to, FacetHit& hit) 
 void WorkingSet::Scan(const Vector& to, const ActivePlanes& active, FacetHit& hit)
 {
   FacetTable& facets = this->Near.Facets();
-  this->Near.RequirePosition();
-  facets.MeasureTarget(to);
+  this->Near.RequireTarget(to);
   const Vector way = to - this->LocalPosition();
   const double wayError = 16.0 * UnitRoundoff * glm::length(way);
   // The facets that are met first, all at once as far as that can be known.
@@ -354,10 +353,8 @@ void WorkingSet::Scan(const Vector& to, const ActivePlanes& active, FacetHit& hi
   int count = 0;
   double first = HUGE_VAL;
   double last = HUGE_VAL;
-  bool isClear = true;
   const auto take = [&](std::int32_t i)
   {
-    isClear = false;
     const double here = facets.Distance(i);
     const double there = facets.TargetDistance(i);
     const double clearance = facets.Clearance(i);
@@ -413,7 +410,6 @@ void WorkingSet::Scan(const Vector& to, const ActivePlanes& active, FacetHit& hi
       take(i);
       return true;
     });
-  facets.SetTargetClear(isClear);
   hit.Fraction = HUGE_VAL;
   const Meeting* chosen = nullptr;
   for (int k = 0; k < count; ++k)

@@ -106,11 +106,12 @@ public:
   bool FindFirstHit(
     const Vector& goal, const ActivePlanes& active, WorkBudget& budget, FacetHit& hit);
 
-  /// Whether a motion stays where it is known that no facet is: it is certified then.
+  /// Whether it is soon known that a motion meets no facet: it is certified then.
   bool IsKnownEmpty(const Vector& target)
   {
+    const Vector to = this->ToSurface.PointToLocal(target);
     return !this->Geometry().IsSweeping() &&
-      this->Near.PassesThroughNothing(this->ToSurface.PointToLocal(target));
+      (this->Near.PassesThroughNothing(to) || this->Near.KeepsOffPlanes(to));
   }
 
   /// Certifies a motion to `target`, on the way to the goal of the last FindFirstHit and no farther
