@@ -77,6 +77,7 @@ void Neighbourhood::Continue(const Neighbourhood& previous)
   this->Reach = std::max(this->Reach, previous.Reach);
   this->RadiusToTry = previous.RadiusToTry;
   this->FreeRadius = previous.FreeRadius;
+  this->IsFreeGrowing = previous.IsFreeGrowing;
   this->LargestToTry = previous.LargestToTry;
   this->MostInBall = previous.MostInBall;
   this->LeapMetNear = previous.LeapMetNear;
@@ -110,6 +111,7 @@ void Neighbourhood::ForgetLearned()
   this->EmptyRadius = 0.0;
   this->RadiusToTry = this->Table.Surface().Surface().Radius();
   this->FreeRadius = 0.0;
+  this->IsFreeGrowing = true;
   this->LargestToTry = HUGE_VAL;
   this->MostInBall = FewInBall;
   this->LeapMetNear = false;
@@ -246,37 +248,43 @@ bool Neighbourhood::GatherBall(WorkBudget& budget)
 
 bool Neighbourhood::GatherBallFor(const Vector& to, WorkBudget& budget)
 {
-  if (this->HasBall() && this->Table.Size() > 0 && this->Table.IsPositionMeasured())
+  const bool wasEmpty = this->HasBall() && this->Table.Size() == 0;
+  if (this->HasBall() && !wasEmpty && this->Table.IsPositionMeasured())
   {
     // What has come nearer shows by its planes, before the engine is asked in vain.
     this->FreeRadius = ShareFree * std::min(this->Table.NearestPlane(), this->Radius);
   }
-  const Vector& position = this->Table.Position();
   const double radius = this->FreeRadius;
-  const Vector centre = position + Ahead(position - this->GatheredAt, radius);
-  const bool isWorthwhile = radius > ShareOfWanted * this->RadiusToTry &&
-    SquaredLength(to - centre) < radius * radius &&
-    glm::length(position) <= FarthestOut * this->Table.Surface().Surface().Radius();
-  return (isWorthwhile && this->GatherNothing(centre, radius)) || this->GatherBall(budget);
+  // What goes away from a surface is soon far from it.
+  if (wasEmpty && this->IsFreeGrowing && this->GatherNothing(2.0 * radius, to))
+  {
+    return true;
+  }
+  this->IsFreeGrowing = !wasEmpty;
+  return this->GatherNothing(radius, to) || this->GatherBall(budget);
 }
 
 /// In free space a ball in which there is nothing serves as long, and the engine looks at little
-/// for it. False, and it is not tried again until it is known how near the surface is, where there
-/// is something.
-bool Neighbourhood::GatherNothing(const Vector& centre, double radius)
+/// for it. False where there is something in it, or it would not serve.
+bool Neighbourhood::GatherNothing(double radius, const Vector& to)
 {
+  const Vector& position = this->Table.Position();
+  const Vector centre = position + Ahead(position - this->GatheredAt, radius);
+  const TriangleSurface& surface = this->Table.Surface().Surface();
   TriangleList found{ this->Triangles.data(), 0 };
-  found.Overflow = !this->IsWithinPatch(centre, radius);
+  found.Overflow = radius <= ShareOfWanted * this->RadiusToTry ||
+    SquaredLength(to - centre) >= radius * radius ||
+    glm::length(position) > FarthestOut * surface.Radius() || !this->IsWithinPatch(centre, radius);
   if (!found.Overflow)
   {
-    this->Table.Surface().Surface().Engine().FindInBall(ToVec3(centre), radius, found);
+    surface.Engine().FindInBall(ToVec3(centre), radius, found);
   }
   if (found.Overflow)
   {
-    this->FreeRadius = 0.0;
     return false;
   }
-  this->GatheredAt = this->Table.Position();
+  this->GatheredAt = position;
+  this->FreeRadius = radius;
   this->Radius = radius * (1.0 - 0x1p-40);
   this->Fill(found, centre, centre, radius, radius);
   this->EmptyCentre = centre;

@@ -140,7 +140,7 @@ private:
   };
 
   bool IsWithinPatch(const Vector& centre, double radius) const;
-  bool GatherNothing(const Vector& centre, double radius);
+  bool GatherNothing(double radius, const Vector& to);
   double Fill(const TriangleList& found, const Vector& centre, const Vector& middle, double radius,
     double farthest);
   bool IsEmptyAround(const Vector& x) const
@@ -164,6 +164,7 @@ private:
   double Radius = 0.0;                 ///< of the ball about the table's centre
   double RadiusToTry = 0.0;            ///< next time
   double FreeRadius = 0.0;             ///< of a ball that is tried first, as it may be empty
+  bool IsFreeGrowing = true;           ///< empty balls have been so, each twice the one before
   double LargestToTry = HUGE_VAL;      ///< below a radius that had too many, for some time
   std::int32_t MostInBall = FewInBall; ///< where the engine is stopped
   bool LeapMetNear = false;
