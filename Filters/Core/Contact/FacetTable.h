@@ -100,6 +100,8 @@ public:
   }
   double Clearance(std::int32_t i) const { return this->Clearances[i]; }
   double Distance(std::int32_t i) const { return this->Distances[i]; }
+  /// Of either distance, HUGE_VAL where the facet is met as a line.
+  double Error(std::int32_t i) const { return this->Errors[i]; }
   ///@}
   double TargetDistance(std::int32_t i) const { return this->TargetDistances[i]; }
   /// Calls visit(i) for each row that the motion to the measured target may meet, or touch, as far

@@ -29,18 +29,6 @@ void GodObjectState::SetTipRadius(double radius)
   this->Around.IsFit = false;
 }
 
-/// Makes the motion where nothing holds the god-object and it is known that nothing is there: soon
-/// done, as most of the time there is none. False, with nothing changed, elsewhere.
-bool GodObjectState::FliesTo(const Vector& target)
-{
-  const bool flies = this->Active.IsEmpty() && this->Around.IsKnownEmpty(target);
-  if (flies)
-  {
-    this->MoveTo(target);
-  }
-  return flies;
-}
-
 /// Makes the motion, or the largest tried part of it that is certified to cross nothing.
 /// True if all of it was made.
 bool GodObjectState::MoveTowards(const Vector& target)

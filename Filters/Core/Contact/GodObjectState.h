@@ -35,7 +35,6 @@ public:
 
   ///@{
   /// Motions. See their definitions for what has to have been certified.
-  bool FliesTo(const Vector& target);
   bool MoveTowards(const Vector& target);
   void MoveTo(const Vector& target);
   void MoveBall(const Vector& to);

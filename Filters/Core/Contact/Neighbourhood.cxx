@@ -147,16 +147,6 @@ bool Neighbourhood::PassesThroughNothing(const Vector& to)
   return isEmpty;
 }
 
-bool Neighbourhood::KeepsOffPlanes(const Vector& to)
-{
-  if (!this->HasBall() || !this->IsInBall(to))
-  {
-    return false;
-  }
-  this->RequireTarget(to);
-  return this->Table.IsKnownClear(to);
-}
-
 bool Neighbourhood::GoesNowhere(const Vector& to)
 {
   // The distance from a thin facet is another one, by rounding, as position and as target.

@@ -89,9 +89,6 @@ public:
   /// Whether a motion stays in the empty ball: then nothing has to be measured for it. It is the
   /// target then.
   bool PassesThroughNothing(const Vector& to);
-  /// Whether by their planes alone a motion in the ball meets none of its facets. It is the target
-  /// then.
-  bool KeepsOffPlanes(const Vector& to);
   /// Whether a motion ends where it begins, among facets that are known, and so meets none. It is
   /// the target then.
   bool GoesNowhere(const Vector& to);

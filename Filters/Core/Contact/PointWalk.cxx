@@ -42,8 +42,9 @@ bool PointWalk::Walk(const Vector& goal)
 {
   while (this->God.PassesLeft-- > 0)
   {
-    if (this->God.FliesTo(goal))
+    if (this->God.Active.IsEmpty() && this->God.Around.IsKnownClear(goal, this->God.Active))
     {
+      this->God.MoveTo(goal);
       return true;
     }
     const Vector before = this->God.Position;
@@ -81,7 +82,9 @@ bool PointWalk::Pass(const Vector& hip)
   for (int cast = 0; cast < LargestNumberOfCasts; ++cast)
   {
     FacetHit hit;
-    if (!this->God.Around.FindFirstHit(goal, this->God.Active, hit))
+    const bool isClear =
+      this->God.Active.SupportSize() > 0 && this->God.Around.IsKnownClear(goal, this->God.Active);
+    if (!isClear && !this->God.Around.FindFirstHit(goal, this->God.Active, hit))
     {
       this->God.IsOverloaded = true;
       return false;
@@ -89,6 +92,11 @@ bool PointWalk::Pass(const Vector& hip)
     if (this->Change.IsToBeCut(goal, hip, hit))
     {
       return false;
+    }
+    if (isClear)
+    {
+      this->God.MoveTo(goal);
+      return true;
     }
     if (!hit)
     {

@@ -125,16 +125,16 @@ public:
     }
     return true;
   }
-  /// Whether the god-object goes there through where it is known that there is nothing, so that
-  /// nobody has to be asked. It is the target then.
-  bool IsKnownEmpty(const Vector& to)
+  /// Whether it is soon known that the god-object meets nothing on its way there, and so neither a
+  /// cast nor a certificate is needed. It is the target then.
+  bool IsKnownClear(const Vector& to, const ActivePlanes& planes)
   {
-    bool isEmpty = !this->HasPatches;
-    for (std::size_t i = this->First; i < this->Last && isEmpty; ++i)
+    bool isClear = !this->HasPatches;
+    for (std::size_t i = this->First; i < this->Last && isClear; ++i)
     {
-      isEmpty = this->Sets[i].IsKnownEmpty(to);
+      isClear = this->Sets[i].IsKnownClear(to, planes);
     }
-    return isEmpty;
+    return isClear;
   }
   /// To the target of the last IsClear().
   void MoveSets()

@@ -239,6 +239,30 @@ bool WorkingSet::FindFirstHit(
   return true;
 }
 
+/// Whether a motion in the ball meets none of its facets, as their planes show.
+bool WorkingSet::KeepsOffPlanes(const Vector& to, const ActivePlanes& active)
+{
+  if (!this->Near.HasBall() || !this->Near.IsInBall(to))
+  {
+    return false;
+  }
+  this->Near.RequireTarget(to);
+  const FacetTable& facets = this->Facets();
+  bool isClear = true;
+  facets.VisitMet(
+    [&](std::int32_t i)
+    {
+      // The facets that hold the god-object are among these. None is touched, nor, as Scan() has
+      // it, met.
+      const double there = facets.TargetDistance(i);
+      isClear = there > facets.Error(i) &&
+        (there >= std::min(0.5 * facets.Clearance(i), facets.Distance(i)) ||
+          active.Has({ this->Index, facets.Triangle(i) }));
+      return isClear;
+    });
+  return isClear;
+}
+
 /// Whether the facet is under x. Where it only reaches over a gap, what stands on the other lip of
 /// the gap must not come down there; but along a plane under which the facet lies nothing comes
 /// down: so a god-object that slides over the edge of a solid, or from one solid to the next, meets

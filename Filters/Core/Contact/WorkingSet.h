@@ -106,12 +106,13 @@ public:
   bool FindFirstHit(
     const Vector& goal, const ActivePlanes& active, WorkBudget& budget, FacetHit& hit);
 
-  /// Whether it is soon known that a motion meets no facet: it is certified then.
-  bool IsKnownEmpty(const Vector& target)
+  /// Whether it is soon known that FindFirstHit() finds nothing on a motion, and that the motion is
+  /// certified. Most motions are such, in free space and along planes.
+  bool IsKnownClear(const Vector& target, const ActivePlanes& active)
   {
     const Vector to = this->ToSurface.PointToLocal(target);
     return !this->Geometry().IsSweeping() &&
-      (this->Near.PassesThroughNothing(to) || this->Near.KeepsOffPlanes(to));
+      (this->Near.PassesThroughNothing(to) || this->KeepsOffPlanes(to, active));
   }
 
   /// Certifies a motion to `target`, on the way to the goal of the last FindFirstHit and no farther
@@ -225,6 +226,7 @@ private:
   SideKeeper Sides(WorkBudget& budget);
   SideKeeper::Past PastOf(
     const WorkingSet& previous, const ActivePlane* held, TriangleList scratch) const;
+  bool KeepsOffPlanes(const Vector& to, const ActivePlanes& active);
   void Scan(const Vector& to, const ActivePlanes& active, FacetHit& hit);
   std::int32_t FindTouched(const Vector& to);
   bool FindSwept(const Vector& to, WorkBudget& budget, FacetHit& hit);
