@@ -1,12 +1,17 @@
-"""A window ends by q, e, its close button and Ctrl-C: in two seconds, with its results written.
+"""A window ends by q, e, its close button and Ctrl-C: in two seconds, with its results written. Programs
+that write results end so by SIGTERM and SIGHUP as well, whenever those come.
 
 Real keys, a real window manager, real processes. usage: TestWindowEnds.py [C++ PROGRAM]
 """
 
+import fcntl
+import gzip
 import os
 import signal
+import subprocess
 import sys
 import tempfile
+import termios
 import time
 
 import vtkmodules.vtkCommonCore  # noqa: F401  (before PyVista, so that it takes the same VTK)
@@ -14,7 +19,7 @@ from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
 import plot_program
-from real_window import Desktop, Program, skip_where_it_cannot_run
+from real_window import Desktop, Program, default_signals, skip_where_it_cannot_run, wait_for_servo
 
 PLOT = plot_program.PLOT + """
 import subprocess
@@ -49,10 +54,15 @@ WAYS = {
     "close button": (lambda program: program.close_button(), 0),
     "Ctrl-C": (lambda program: program.interrupt(), 130),
 }
+PROGRAM_WAYS = {
+    **WAYS,
+    "SIGTERM": (lambda program: program.process.send_signal(signal.SIGTERM), 143),
+    "SIGHUP": (lambda program: program.process.send_signal(signal.SIGHUP), 129),
+}
 
 
 def end(program, way, name):
-    act, status = WAYS[way]
+    act, status = PROGRAM_WAYS[way]
     program.focus()
     began = time.monotonic()
     act(program)
@@ -64,7 +74,7 @@ def end(program, way, name):
 
 
 def test_viewer(desktop, folder):
-    for number, way in enumerate(WAYS):
+    for number, way in enumerate(PROGRAM_WAYS):
         results = [os.path.join(folder, f"{number}.{kind}") for kind in ("vtp", "png")]
         program = desktop.start(
             [sys.executable, "-m", "vtkhaptics", ball(folder), "--size", "400", "300",
@@ -79,7 +89,7 @@ def test_viewer(desktop, folder):
 def test_demo(desktop, folder):
     # In the middle of a stroke that would go on for longer than end() waits, and after a short one.
     for number, (way, seconds, begun) in enumerate([
-        *((way, 60, "touching for") for way in WAYS), ("q", 2, "trace: "), ("close button", 2, "trace: "),
+        *((way, 60, "touching for") for way in PROGRAM_WAYS), ("q", 2, "trace: "), ("close button", 2, "trace: "),
     ]):
         output = os.path.join(folder, f"demo{number}")
         program = desktop.start(
@@ -121,11 +131,98 @@ def test_cxx(desktop, _folder):
         assert "the event loop has ended" in program.output(), program.output()
 
 
+# The viewer, which sends itself a signal at a step of its way to the window: real signals, which reach
+# Python where VTK calls it, as those of a person do.
+AT_A_STEP = """
+import os, sys
+from vtkhaptics import detail, progress, surfaces, viewer
+
+number, step = int(sys.argv.pop(1)), sys.argv.pop(1)
+own = {"reads": (progress.ProgressBar, "show"), "draws": (detail.DetailSwitch, "_on_end"),
+       "tries": (surfaces, "try_apart"), "builds": (viewer.Viewer, "_update"), "connects": (viewer.Viewer, "connect"),
+       "steps": (viewer.Viewer, "_step"), "writes": (viewer, "save_window")}[step]
+before = getattr(*own)
+
+def after(*arguments, **more):
+    os.kill(os.getpid(), number)
+    return before(*arguments, **more)
+
+setattr(*own, after)
+sys.exit(viewer.main())
+"""
+
+
+def test_signals_on_the_way_to_the_window(desktop, folder):
+    script = os.path.join(folder, "step.py")
+    with open(script, "w", encoding="utf-8") as file:
+        file.write(AT_A_STEP)
+    temporary = os.path.join(folder, "temporary")
+    os.mkdir(temporary)
+    packed = ball(folder) + ".gz"
+    with open(ball(folder), "rb") as plain, gzip.open(packed, "wb") as file:
+        file.write(plain.read())
+    environment = {**desktop.environment, "TMPDIR": temporary}
+    for step in ("tries", "reads", "draws", "builds", "connects", "steps", "writes"):
+        more = ("--offscreen", "--seconds", "2") if step in ("steps", "writes") else ()
+        results = [os.path.join(folder, f"{step}.{kind}") for kind in ("vtp", "png")]
+        for number, status in ((signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)):
+            done = subprocess.run(
+                [sys.executable, script, str(int(number)), step, packed, "--trace", results[0], "--screenshot",
+                 results[1], "--size", "200", "150", *more],
+                env=environment, preexec_fn=default_signals, capture_output=True, text=True, check=False, timeout=60.0)
+            said = step, number, done.returncode, done.stdout, done.stderr
+            assert done.returncode == status and done.stderr == "", said
+            written = [os.path.exists(result) for result in results]
+            assert written == [bool(more)] * 2, said
+            assert os.listdir(temporary) == [], said
+            for result in filter(os.path.exists, results):
+                os.remove(result)
+
+
+def test_a_terminal_that_is_closed(desktop, folder):
+    results = [os.path.join(folder, f"closed.{kind}") for kind in ("vtp", "png", "csv")]
+    terminal, inner = os.openpty()
+
+    def lead():  # the terminal's session, as `xterm -e` has it
+        default_signals()
+        os.setsid()
+        fcntl.ioctl(inner, termios.TIOCSCTTY, 0)
+
+    program = subprocess.Popen(
+        [sys.executable, "-m", "vtkhaptics", ball(folder), "--size", "400", "300", "--trace", results[0],
+         "--screenshot", results[1], "--landmarks", results[2]],
+        env=desktop.environment, stdin=inner, stdout=inner, stderr=inner, preexec_fn=lead)
+    os.close(inner)
+    said = b""
+    while b"triangles" not in said:  # what it writes has nowhere to go later
+        said += os.read(terminal, 1024)
+    desktop.xdo("search", "--sync", "--onlyvisible", "--name", "VTK Haptics")
+    wait_for_servo(program)
+    time.sleep(1.0)
+    os.close(terminal)
+    assert program.wait(30.0) == 129
+    for result in results:
+        assert os.path.getsize(result) > 0, result
+
+
+def test_nohup(desktop, folder):
+    program = desktop.start(
+        ["nohup", sys.executable, "-m", "vtkhaptics", ball(folder), "--size", "400", "300"])
+    program.engages()
+    program.process.send_signal(signal.SIGHUP)
+    time.sleep(1.0)
+    assert program.process.poll() is None, (program.process.returncode, program.output())
+    end(program, "SIGTERM", "viewer under nohup")
+
+
 skip_where_it_cannot_run()
 with Desktop() as screen, tempfile.TemporaryDirectory() as scratch:
     test_style(screen, scratch)
     test_interrupt_on_the_way_into_the_event_loop(screen, scratch)
     test_viewer(screen, scratch)
+    test_signals_on_the_way_to_the_window(screen, scratch)
+    test_a_terminal_that_is_closed(screen, scratch)
+    test_nohup(screen, scratch)
     test_demo(screen, scratch)
     if len(sys.argv) > 1:
         test_cxx(screen, scratch)

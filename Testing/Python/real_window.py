@@ -30,6 +30,12 @@ def skip_where_it_cannot_run():
         sys.exit(SKIPPED)
 
 
+def default_signals():
+    """In a process that starts: no signal is ignored that its own starter ignores."""
+    for number in (signal.SIGINT, signal.SIGHUP, signal.SIGTERM):
+        signal.signal(number, signal.SIG_DFL)
+
+
 def wait_for(condition, seconds, what):
     """What the condition gives, once that is true. AssertionError after so many seconds."""
     end = time.monotonic() + seconds
@@ -39,6 +45,18 @@ def wait_for(condition, seconds, what):
             return value
         assert time.monotonic() < end, f"waited {seconds:g} s in vain for {what}"
         time.sleep(0.05)
+
+
+def wait_for_servo(process, seconds=60.0, say=lambda: ""):
+    """Waits until a servo runs in a process; `say` is asked where that has ended before."""
+    tasks = f"/proc/{process.pid}/task"
+
+    def runs():
+        assert process.poll() is None, (process.returncode, say())
+        return subprocess.run(
+            f"grep -sqx 'haptic servo' {tasks}/*/comm", shell=True, check=False).returncode == 0
+
+    wait_for(runs, seconds, f"the servo of process {process.pid}")
 
 
 def whole_lines(path):
@@ -126,8 +144,8 @@ class Program:
         with open(log, "wb") as out:
             self.process = subprocess.Popen(
                 command, env=desktop.environment, stdout=out, stderr=subprocess.STDOUT,
-                # As a shell starts it: one in the background would have SIGINT ignored.
-                preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+                # As a shell starts it: one in the background would have SIGINT ignored, and nohup SIGHUP.
+                preexec_fn=default_signals,
             )
         self.window = None
 
@@ -148,14 +166,7 @@ class Program:
 
     def engages(self, seconds=60.0):
         """Waits until a servo runs in the program."""
-        tasks = f"/proc/{self.process.pid}/task"
-
-        def runs():
-            assert self.process.poll() is None, (self.command, self.output())
-            return subprocess.run(
-                f"grep -sqx 'haptic servo' {tasks}/*/comm", shell=True, check=False).returncode == 0
-
-        wait_for(runs, seconds, f"the servo of {self.command}")
+        wait_for_servo(self.process, seconds, lambda: (self.command, self.output()))
 
     def find_window(self, title, seconds):
         def found():

@@ -34,7 +34,8 @@ with that of --unit, and the hand's space is fitted to them.
 
 exit status:
   0 done; 1 the device or the servo failed, or a file could not be written; 2 wrong arguments or a
-  surface that cannot be read; 3 no display to draw with; 130 ended by Ctrl-C, results written
+  surface that cannot be read; 3 no display to draw with; 130, 143, 129 ended by Ctrl-C (SIGINT),
+  SIGTERM or SIGHUP, with the results until then, where the surfaces had been ready
 """
 
 

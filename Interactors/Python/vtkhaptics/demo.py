@@ -19,7 +19,7 @@ from . import vtkGodObjectActor, vtkHapticScene, vtkInteractorStyleHaptic, vtkSi
 from .arguments import add_seconds, check_seconds
 from .display import DisplayError, ensure_display
 from .errors import HapticsError
-from .interrupt import EXIT_INTERRUPTED, Interrupts
+from .interrupt import ENDS, Interrupts
 from .output import OutputError, check_outputs, write_polydata
 from .picture import Picture, add_hand, stroke_lines
 from .stroke import StrokeError, in_device_frame, plan_stroke
@@ -42,7 +42,8 @@ what it leaves in the output folder:
 exit status:
   0 done; 1 the device or servo failed, less than half of the ticks touched, or a file could not
   be written; 2 wrong arguments or a surface that cannot be read; 3 no display to draw with;
-  130 ended by Ctrl-C, results written
+  130, 143, 129 ended by Ctrl-C (SIGINT), SIGTERM or SIGHUP, with the results until then, where the
+  stroke had begun
 """
 
 
@@ -276,13 +277,14 @@ def report(options, scene, picture, over):
 def main(arguments=None):
     """What the command line does; returns the exit status."""
     options = parse(arguments)
+    interrupts = Interrupts(ENDS)
     try:
         ensure_display("vtkhaptics.demo", ["--offscreen", *(arguments or sys.argv[1:])])
     except DisplayError as error:
         print(f"demo: {error}", file=sys.stderr)
         return EXIT_DISPLAY
     try:
-        with Interrupts() as interrupts:
+        with interrupts:
             run(options, interrupts)
     except SurfaceError as error:
         print(f"demo: {error}", file=sys.stderr)
@@ -291,7 +293,7 @@ def main(arguments=None):
         print(f"demo: {error}", file=sys.stderr)
         return EXIT_FAILED
     except KeyboardInterrupt:
-        return EXIT_INTERRUPTED
+        return interrupts.exit_status()
     return EXIT_DONE
 
 

@@ -17,6 +17,7 @@ from vtkmodules.vtkIOPLY import vtkPLYReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 from . import cortices, volumes
+from .interrupt import deferred, is_due
 from .trial import Crashed, try_apart
 from .units import file_unit
 from .volumes import NoSurfaceError
@@ -73,12 +74,18 @@ def run_reader(reader, progress=None):
         keep.CallDataType = "string0"
         return keep
 
+    def on_progress(caller, _event):
+        if is_due():
+            caller.AbortExecuteOn()
+        progress(caller.GetProgress())
+
     reader.AddObserver("ErrorEvent", listener(errors))
     reader.AddObserver("WarningEvent", listener(warnings))
     reader.GetExecutive().AddObserver("ErrorEvent", listener(failures))
     if progress:
-        reader.AddObserver("ProgressEvent", lambda caller, _event: progress(caller.GetProgress()))
-    reader.Update()
+        reader.AddObserver("ProgressEvent", on_progress)
+    with deferred():
+        reader.Update()
     if errors:
         return errors
     if failures:

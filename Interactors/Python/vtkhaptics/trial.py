@@ -30,6 +30,11 @@ def try_apart(action):
             action()
         finally:
             os._exit(0)
-    _, status = os.waitpid(child, 0)
+    try:
+        _, status = os.waitpid(child, 0)
+    except BaseException:  # Ctrl-C: nobody waits for it any more
+        os.kill(child, signal.SIGKILL)
+        os.waitpid(child, 0)
+        raise
     if os.WIFSIGNALED(status):
         raise Crashed(signal.strsignal(os.WTERMSIG(status)))

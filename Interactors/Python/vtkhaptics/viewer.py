@@ -32,7 +32,7 @@ from .detail import DetailSwitch
 from .devices import create_device, known_devices, remember_device
 from .display import DisplayError, ensure_display
 from .errors import HapticsError
-from .interrupt import EXIT_INTERRUPTED, Interrupts
+from .interrupt import ENDS, Interrupts, deferred
 from .output import OutputError, check_outputs, write_polydata
 from .picture import (
     BACKGROUND,
@@ -184,8 +184,16 @@ class Viewer:
         self.interactor.Initialize()
         self.renderer.ResetCameraClippingRange()
         self.detail.watch(self.window)
-        self.window.Render()
+        self._render()
         self.detail.set_live(not self.options.offscreen)
+
+    def _render(self):
+        with deferred():  # DetailSwitch observes the window
+            self.window.Render()
+
+    def _process_events(self):
+        with deferred():
+            self.interactor.ProcessEvents()
 
     def build(self):
         """Makes the surfaces touchable, in the background; the camera can be moved meanwhile.
@@ -208,7 +216,7 @@ class Viewer:
                 label(self.scene.GetSurfaces().GetBuildProgress())
                 self._refine()
                 if not self.options.offscreen:
-                    self.interactor.ProcessEvents()
+                    self._process_events()
                 time.sleep(BUILD_FRAME)
                 self._update()
         for caller, observer in observers:
@@ -241,7 +249,7 @@ class Viewer:
             if time.monotonic() - began > PATIENCE and words != overlay.GetStatus():
                 overlay.SetStatus(words)
                 self.renderer.ResetCameraClippingRange()
-                self.window.Render()
+                self._render()
 
         try:
             yield show
@@ -303,9 +311,9 @@ class Viewer:
                 said = self.device.GetStatusMessage()
                 print(said, flush=True)
                 overlay.SetStatus(said)
-                self.window.Render()
+                self._render()
             if not self.options.offscreen:
-                self.interactor.ProcessEvents()
+                self._process_events()
                 if self.interactor.GetDone():
                     raise KeyboardInterrupt
             time.sleep(BUILD_FRAME)
@@ -326,8 +334,14 @@ class Viewer:
         """Touches until the window is closed, or off screen for a while in virtual time."""
         self.scene.StartRecording()
         if self.options.offscreen:
-            self._step()
-            self._finish()
+            try:
+                self._step()
+            except KeyboardInterrupt:
+                with deferred():
+                    self._finish()
+                raise
+            with deferred():
+                self._finish()
             return
         if not self.scene.Engage():
             raise ViewerError(self.scene.GetErrorMessage())
@@ -346,7 +360,7 @@ class Viewer:
     def _refine(self):
         """Draws a picture that rests in full."""
         if self.detail.rest():
-            self.window.Render()
+            self._render()
 
     def _on_timer(self, _caller, _event):
         self._refine()
@@ -435,9 +449,10 @@ def main(arguments=None):
             file=sys.stderr,
         )
         return EXIT_DISPLAY
+    interrupts = Interrupts(ENDS)
     try:
         ensure_display("vtkhaptics", arguments)
-        with Interrupts() as interrupts:
+        with interrupts:
             run(options, interrupts)
     except DisplayError as error:
         print(f"vtkhaptics: {error}", file=sys.stderr)
@@ -449,5 +464,5 @@ def main(arguments=None):
         print(f"vtkhaptics: {error}", file=sys.stderr)
         return EXIT_FAILED
     except KeyboardInterrupt:
-        return EXIT_INTERRUPTED
+        return interrupts.exit_status()
     return EXIT_DONE
