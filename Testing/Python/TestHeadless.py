@@ -1,14 +1,17 @@
 """Without a display everything runs, draws off screen, or says what is missing: nothing aborts."""
 
 import os
+import signal
 import struct
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 import numpy as np
 import vtkhaptics
+from real_window import default_signals, wait_for
 from vtkhaptics.display import needs_display
 
 EXAMPLES = os.path.join(os.environ["HAPTICS_SOURCE_DIR"], "Interactors", "Python", "examples")
@@ -19,6 +22,19 @@ def size_of(png):
     """Width and height of a PNG picture."""
     assert png[:8] == b"\x89PNG\r\n\x1a\n", png[:8]
     return struct.unpack(">II", png[16:24])
+
+
+def processes_with(mark):
+    """The processes with this in their environment."""
+    found = []
+    for id_ in filter(str.isdigit, os.listdir("/proc")):
+        try:
+            with open(f"/proc/{id_}/environ", "rb") as file:
+                if mark.encode() in file.read().split(b"\0"):
+                    found.append(id_)
+        except OSError:  # it has ended, or is somebody else's
+            continue
+    return found
 
 
 class Headless(unittest.TestCase):
@@ -75,6 +91,27 @@ for _ in range(30):
                 file.write(script)
             done = subprocess.run([sys.executable, path], env=HEADLESS, capture_output=True, text=True, timeout=300)
         self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_a_signal_ends_the_viewer_in_order_and_leaves_no_process(self):
+        table = "OFF 4 1 0\n-1 -1 0\n1 -1 0\n1 1 0\n-1 1 0\n4 0 1 2 3\n"
+        for number, status in ((signal.SIGTERM, 143), (signal.SIGHUP, 129), (signal.SIGINT, 130)):
+            with tempfile.TemporaryDirectory() as folder:
+                surface, trace = (os.path.join(folder, name) for name in ("table.off", "trace.vtp"))
+                with open(surface, "w") as file:
+                    file.write(table)
+                mark = f"HAPTICS_TEST_FOLDER={folder}"
+                program = subprocess.Popen(
+                    [sys.executable, "-m", "vtkhaptics", surface, "--offscreen", "--seconds", "600", "--trace", trace],
+                    env={**HEADLESS, "HAPTICS_TEST_FOLDER": folder}, stdout=subprocess.PIPE, text=True,
+                    preexec_fn=default_signals)
+                self.assertIn("triangles", program.stdout.readline())
+                time.sleep(2.0)  # surface and window are soon ready; the hand is on its way for longer
+                self.assertIsNone(program.poll(), "the stroke has ended")
+                program.send_signal(number)
+                self.assertEqual(program.wait(60), status)
+                self.assertGreater(os.path.getsize(trace), 1000)
+                program.stdout.close()
+                wait_for(lambda mark=mark: not processes_with(mark), 20.0, "the end of what it started")
 
     def test_what_is_missing_is_said(self):
         if not needs_display():

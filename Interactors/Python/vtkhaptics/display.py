@@ -1,7 +1,10 @@
 """Finds out whether this VTK can draw here, and borrows a virtual display where it cannot."""
 
+import contextlib
 import os
 import shutil
+import signal
+import subprocess
 import sys
 
 from vtkmodules.vtkRenderingCore import vtkRenderWindow
@@ -38,6 +41,36 @@ def ensure_display(module, arguments):
             "Install xvfb (Debian: apt-get install xvfb xauth) and try again."
         )
     program = ["-m", module] if module else []
+    sys.exit(_run_displayed(xvfb, [sys.executable, *program, *arguments]))
+
+
+def _run_displayed(xvfb, command):
+    """Runs a command under a virtual display; its exit status, as shells have it. What is to end this
+    process is passed on to that: xvfb-run would die of it, and leave the command and the display behind."""
     # Without -noreset the server starts anew once a first window is closed, and may turn the next away.
     server = ["-a", "-s", "-noreset -screen 0 1280x1024x24"]
-    os.execv(xvfb, [xvfb, *server, sys.executable, *program, *arguments])
+    read, write = os.pipe()
+    tell_id = ["sh", "-c", 'echo $$ >"$0"; exec "$@"', f"/proc/self/fd/{write}"]
+    inner, waiting = 0, []
+
+    def pass_on(number, _frame):
+        if not inner:
+            waiting.append(number)
+            return
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(inner, number)
+
+    for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGQUIT"):
+        number = getattr(signal, name)
+        if signal.getsignal(number) is not signal.SIG_IGN:
+            signal.signal(number, pass_on)
+    # A session of its own: Ctrl-C would end the server before the command has drawn its last picture.
+    shell = subprocess.Popen(
+        [xvfb, *server, *tell_id, *command], pass_fds=[write], start_new_session=True)
+    os.close(write)
+    with open(read, "rb") as line:
+        inner = int(line.readline() or 0)
+    for number in waiting:
+        pass_on(number, None)
+    status = shell.wait()
+    return status if status >= 0 else 128 - status
