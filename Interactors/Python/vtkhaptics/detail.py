@@ -30,8 +30,9 @@ def coarse_copy(surface):
         surface.GetPointData().GetArrayName(i)
         for i in range(surface.GetPointData().GetNumberOfArrays())
     ]
-    if any(name and name != "Normals" for name in names):
-        _copy_values(surface, coarse, [name for name in names if name and name != "Normals"])
+    names = [name for name in names if name and name not in ("Normals", "vtkEdgeFlags")]
+    if names:
+        _copy_values(surface, coarse, names)
     return coarse
 
 
@@ -66,8 +67,10 @@ class DetailSwitch:
         self._full_time = 0.0  # [s] that the last picture in full took
         self._began = self._ended = 0.0
 
-    def add(self, actor, surface):
-        """Takes an actor over, where its surface is large; colour it before."""
+    def add(self, actor):
+        """Takes an actor over, where what it shows is large; colour it before."""
+        actor.GetMapper().Update()
+        surface = actor.GetMapper().GetInput()
         if surface.GetNumberOfPolys() + surface.GetNumberOfStrips() < LARGE:
             return
         full, coarse = actor.GetMapper(), vtkPolyDataMapper()

@@ -22,6 +22,7 @@ from vtkmodules.vtkRenderingCore import (
 
 from .coloring import force_colors, scalar_bar
 from .output import write_png
+from .polygons import drawable, has_polygons
 from .surfaces import SurfaceError
 
 SIZE = (1200, 800)
@@ -29,13 +30,19 @@ BACKGROUND = ((0.93, 0.94, 0.96), (0.66, 0.71, 0.78))
 
 
 def surface_actor(surface, color=(0.74, 0.80, 0.86)):
-    """An actor that shows a vtkPolyData smooth, but for edges sharper than 35 degrees."""
+    """An actor that shows a vtkPolyData smooth, but for edges sharper than 35 degrees; polygons, too, as
+    they are touched. It follows later changes of one whose polygons VTK draws so by itself."""
     normals = vtkPolyDataNormals()
     normals.SetInputData(surface)
     normals.SetFeatureAngle(35.0)
     normals.ConsistencyOff()
     mapper = vtkPolyDataMapper()
     mapper.SetInputConnection(normals.GetOutputPort())
+    if has_polygons(surface):
+        normals.Update()
+        drawn = drawable(normals.GetOutput())
+        if drawn is not normals.GetOutput():
+            mapper.SetInputData(drawn)
     mapper.ScalarVisibilityOff()
     actor = vtkActor()
     actor.SetMapper(mapper)
@@ -45,6 +52,16 @@ def surface_actor(surface, color=(0.74, 0.80, 0.86)):
     look.SetDiffuse(0.85)
     look.SetSpecular(0.22)
     look.SetSpecularPower(24.0)
+    return actor
+
+
+def touched_actor(surface, shown):
+    """An actor, not to be drawn, that a scene touches in the place of `shown`, which follows it: what is
+    shown has its sharp edges split, and what is touched is the surface with the ids of its cells."""
+    mapper, actor = vtkPolyDataMapper(), vtkActor()
+    mapper.SetInputData(surface)
+    actor.SetMapper(mapper)
+    shown.SetUserMatrix(actor.GetMatrix())
     return actor
 
 

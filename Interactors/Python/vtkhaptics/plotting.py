@@ -37,7 +37,9 @@ class Touch:
         """Makes an actor or an assembly touchable, which is followed; the id of the surface. An
         actor that shows no polydata is touched by the outside of what it shows."""
         if prop not in self._surfaces:
-            stand_in = None if _shows_polydata(prop) else _outside_actor(prop)
+            stand_in = getattr(prop, "_vtkhaptics_touched", None)
+            if not stand_in and not _shows_polydata(prop):
+                stand_in = _outside_actor(prop)
             id_ = _add(self.scene, stand_in or prop)
             self._surfaces[prop] = (id_, stand_in)
         return self._surfaces[prop][0]

@@ -47,7 +47,7 @@ def touch(
     """
     from .coloring import color_by, scalar_bar
     from .display import needs_display
-    from .picture import BACKGROUND, add_lights, fill_view, surface_actor
+    from .picture import BACKGROUND, add_lights, fill_view, surface_actor, touched_actor
 
     if not surfaces:
         raise TypeError("touch() needs at least one surface.")
@@ -71,6 +71,7 @@ def touch(
     actors = [surface_actor(surface) for surface in shown]
     for surface, actor in zip(shown, actors):
         renderer.AddActor(actor)
+        actor._vtkhaptics_touched = touched_actor(surface, actor)
         name, table = (None, None) if scalars == "none" else color_by(actor, surface, scalars)
         if table and surface is shown[0]:
             renderer.AddViewProp(scalar_bar(table, name, size))

@@ -14,8 +14,6 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkDataObject
 from vtkmodules.vtkInteractionStyle import vtkInteractorStyleTrackballCamera
 from vtkmodules.vtkRenderingCore import (
-    vtkActor,
-    vtkPolyDataMapper,
     vtkRenderer,
     vtkRenderWindow,
     vtkRenderWindowInteractor,
@@ -41,6 +39,7 @@ from .picture import (
     save_window,
     smooth_edges,
     surface_actor,
+    touched_actor,
 )
 from .progress import PATIENCE, ProgressBar
 from .recording import RecordingError, read_recording
@@ -84,7 +83,7 @@ class Viewer:
                 surface = read_surface(path, bar.show, self.options.contour)
             actor = surface_actor(surface, COLORS[number % len(COLORS)])
             self._color(actor, surface, path)
-            self.detail.add(actor, surface)
+            self.detail.add(actor)
             self.renderer.AddActor(actor)
             self.surfaces.append(surface)
             self._touch(surface, actor, os.path.basename(path))
@@ -94,14 +93,8 @@ class Viewer:
             self.scene.GetWorkspace().SetUnitLength(METRES[units.pop()])
 
     def _touch(self, surface, shown, name):
-        """Adds a surface to the scene, under an actor that `shown` follows: what is shown has its
-        sharp edges split, and what is touched is as it was read, with the ids of the file."""
-        touched = vtkActor()
-        mapper = vtkPolyDataMapper()
-        mapper.SetInputData(surface)
-        touched.SetMapper(mapper)
-        shown.SetUserMatrix(touched.GetMatrix())
-        id_ = self.scene.AddSurface(touched)
+        """Adds a surface to the scene, with the ids of the file, under an actor that `shown` follows."""
+        id_ = self.scene.AddSurface(touched_actor(surface, shown))
         self.scene.GetSurfaces().SetName(id_, name)
         getattr(self.scene.GetSurfaceFilter(id_), SET_SIDE[self.options.side])()
         material = self.scene.GetSurfaceProperties(id_)
