@@ -130,7 +130,8 @@ public:
   ///@{
   /**
    * Force whose arrow is 12 times as long as Size [N]; arrows are proportional to the force.
-   * Default 3.3, the limit of common devices; greater than 0.
+   * Default 3.3, the limit of common devices; greater than 0. A vtkHapticView sets it to the
+   * largest force that the hand can meet.
    */
   void SetReferenceForce(double value);
   vtkGetMacro(ReferenceForce, double);

@@ -206,7 +206,7 @@ void vtkHapticOverlay::SetHint(const std::string& text)
 void vtkHapticOverlay::ArrangeBar()
 {
   const double height = 1.9 * this->Text;
-  const double number = 5.0 * this->Text;
+  const double number = 7.0 * this->Text;
   const double length = 11.0 * this->Text;
   const double gap = 0.5 * this->Text;
   const double x = this->Left + Margin * this->Unit;
@@ -216,8 +216,8 @@ void vtkHapticOverlay::ArrangeBar()
   SetBox(this->Bar, x + gap, y + gap, share * length, height - 2.0 * gap);
   this->BarPart->GetProperty()->SetColor(this->ForceColors->GetColor(this->Force));
 
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.2f N", this->Force);
+  char text[64];
+  std::snprintf(text, sizeof(text), "%.2f of %.3g N", this->Force, this->MaximumForce);
   this->NumberPart->SetInput(text);
   this->NumberPart->SetPosition(x + length + 2.0 * gap, y + 0.5 * height);
 }

@@ -40,7 +40,10 @@ public:
   vtkGetMacro(Force, double);
   ///@}
   ///@{
-  /** Force that fills the bar [N], the limit of the device. Default 3.3; finite and > 0. */
+  /**
+   * Force that fills the bar [N], which the number names as well. Default 3.3; finite and > 0. A
+   * vtkHapticView sets it to the largest force that the hand can meet.
+   */
   void SetMaximumForce(double force);
   vtkGetMacro(MaximumForce, double);
   ///@}

@@ -21,7 +21,7 @@ vtkStandardNewMacro(vtkHapticView);
 
 namespace
 {
-constexpr double UnlimitedBar = 3.3; // [N], a full bar where nothing limits the force
+constexpr double UnlimitedScale = 3.3; // [N], what is strongest where nothing limits the force
 }
 
 vtkHapticView::vtkHapticView()
@@ -50,6 +50,7 @@ void vtkHapticView::SetScene(vtkHapticScene* scene)
   }
   this->Scene = scene;
   this->LandmarksShown = 0;
+  this->StrongestShown = 0.0;
   if (scene)
   {
     scene->AddObserver(vtkHapticScene::StateEvent, this->Callback);
@@ -98,13 +99,32 @@ void vtkHapticView::ShowTrail()
   }
 }
 
+/// Bar, arrow, ring, colours and legend end at one force: the largest that the hand can meet.
+void vtkHapticView::ShowScale()
+{
+  const double limit = this->Scene->GetServo()->GetEffectiveMaximumForce();
+  const double strongest = limit > 0.0 && limit < VTK_DOUBLE_MAX ? limit : UnlimitedScale;
+  if (strongest == this->StrongestShown)
+  {
+    return; // what the program has set itself stays
+  }
+  this->StrongestShown = strongest;
+  if (this->Overlay)
+  {
+    this->Overlay->SetMaximumForce(strongest);
+  }
+  if (this->Actor)
+  {
+    this->Actor->SetReferenceForce(strongest);
+  }
+}
+
 void vtkHapticView::Show()
 {
+  this->ShowScale();
   if (this->Overlay)
   {
     this->Overlay->SetForce(vtkMath::Norm(this->Scene->GetForce()));
-    const double limit = this->Scene->GetServo()->GetEffectiveMaximumForce();
-    this->Overlay->SetMaximumForce(limit > 0.0 && limit < VTK_DOUBLE_MAX ? limit : UnlimitedBar);
     this->Overlay->SetReadout(this->Overlay->GetShowReadout() ? this->DescribeContact() : "");
   }
   if (this->Actor)
@@ -159,6 +179,7 @@ vtkGodObjectActor* vtkHapticView::GetGodObjectActor()
   {
     this->Actor = vtkSmartPointer<vtkGodObjectActor>::New();
     this->LandmarksShown = 0;
+    this->StrongestShown = 0.0;
     if (this->Scene)
     {
       this->Show();
@@ -172,6 +193,7 @@ vtkHapticOverlay* vtkHapticView::GetOverlay()
   if (!this->Overlay)
   {
     this->Overlay = vtkSmartPointer<vtkHapticOverlay>::New();
+    this->StrongestShown = 0.0;
     if (this->Scene)
     {
       this->Show();

@@ -40,7 +40,11 @@ public:
   vtkHapticScene* GetScene();
   ///@}
 
-  /** God-object, HIP, force, trail and landmarks. Made by the first call; never null. */
+  /**
+   * God-object, HIP, force, trail and landmarks. Made by the first call; never null. Its
+   * ReferenceForce and the overlay's MaximumForce are the largest force that the hand can meet
+   * (vtkHapticServo::GetEffectiveMaximumForce()), and are set where that changes.
+   */
   vtkGodObjectActor* GetGodObjectActor();
   /** The force as bar and number, the read-out and the help. Made by the first call; never null. */
   vtkHapticOverlay* GetOverlay();
@@ -58,6 +62,7 @@ private:
   static void OnLandmarks(vtkObject* caller, unsigned long event, void* clientData, void* callData);
   void ShowLandmarks();
   void ShowTrail();
+  void ShowScale();
   void Show();
   std::string DescribeContact();
   std::string DescribeLandmarks();
@@ -68,6 +73,7 @@ private:
   vtkSmartPointer<vtkGodObjectActor> Actor;
   vtkSmartPointer<vtkHapticOverlay> Overlay;
   vtkMTimeType LandmarksShown = 0;
+  double StrongestShown = 0.0; ///< [N]; 0: none yet
 };
 
 #endif

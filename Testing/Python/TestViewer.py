@@ -395,6 +395,21 @@ def test_what_is_gripped_moves_in_the_picture(folder):
     assert np.linalg.norm(moved - led) < 0.1 * np.linalg.norm(led), (moved, led)
 
 
+def test_bar_and_colours_end_at_the_largest_force(folder):
+    path = ball(0.0, folder)
+    for more, strongest in (((), 5.0), (("--force-limit", "2"), 2.0), (("--device", "simulated"), 3.3)):
+        shown = Viewer(parse([path, "--offscreen", "--size", "200", "200", "--scalars", "none", *more]))
+        with redirect_stdout(io.StringIO()):
+            shown.add_surfaces()
+        shown.open()
+        assert shown.build()
+        shown.connect()
+        shown.scene.Step(16)
+        overlay, hand = shown.style.GetView().GetOverlay(), shown.hand
+        assert overlay.GetMaximumForce() == hand.GetReferenceForce() == strongest, (more, strongest)
+        assert hand.GetForceColors().GetRange() == (0.0, strongest), (more, strongest)
+
+
 def test_bad_input(folder):
     surface = ball(0.0, folder)
     line = vtkLineSource()
@@ -613,6 +628,7 @@ with tempfile.TemporaryDirectory() as scratch:
         test_a_device_that_is_homed_is_waited_for_and_says_so,
         test_simulated,
         test_what_is_gripped_moves_in_the_picture,
+        test_bar_and_colours_end_at_the_largest_force,
         test_bad_input,
         test_stl_files_hold_at_least_as_many_triangles_as_they_say,
         test_an_stl_text_may_have_a_name_in_any_letters,

@@ -3,10 +3,13 @@
 #include "vtkActor.h"
 #include "vtkCallbackCommand.h"
 #include "vtkCamera.h"
+#include "vtkColorTransferFunction.h"
 #include "vtkHapticLandmarks.h"
 #include "vtkHapticOverlay.h"
+#include "vtkHapticServo.h"
 #include "vtkHapticSurfaces.h"
 #include "vtkMatrix4x4.h"
+#include "vtkMouseHapticDevice.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkUnsignedCharArray.h"
 
@@ -214,6 +217,37 @@ TEST(HapticOverlay, ReadsOutHowFarTheLastTwoLandmarksAreApart)
   hand.Scene->GetLandmarks()->RemoveAll();
   hand.MoveTo(0.01);
   EXPECT_EQ(overlay->GetReadout(), "");
+}
+
+TEST(HapticView, BarArrowRingAndColoursEndAtTheLargestForceThatTheHandCanMeet)
+{
+  LedHand hand;
+  vtkNew<vtkHapticView> view;
+  vtkGodObjectActor* actor = view->GetGodObjectActor();
+  view->SetScene(hand.Scene);
+  vtkHapticOverlay* overlay = view->GetOverlay();
+  const auto expect = [&](double force)
+  {
+    EXPECT_EQ(overlay->GetMaximumForce(), force);
+    EXPECT_EQ(actor->GetReferenceForce(), force);
+    EXPECT_EQ(actor->GetForceColors()->GetRange()[1], force);
+  };
+  hand.MoveTo(0.01);
+  expect(hand.Device->GetMaximumForce());
+  hand.Scene->GetServo()->SetMaximumForce(1.5);
+  hand.MoveTo(0.011);
+  expect(1.5);
+  actor->SetReferenceForce(0.7); // by a program for a picture of its own
+  hand.MoveTo(0.012);
+  EXPECT_EQ(actor->GetReferenceForce(), 0.7);
+  vtkNew<vtkMouseHapticDevice> mouse;
+  hand.Scene->GetServo()->SetMaximumForce(VTK_DOUBLE_MAX);
+  hand.Scene->SetDevice(mouse);
+  hand.Scene->Step(1);
+  expect(mouse->GetMaximumForce());
+  hand.Scene->GetServo()->SetMaximumForce(0.0); // no force at all: a scale that can be drawn
+  hand.Scene->Step(1);
+  expect(3.3);
 }
 
 TEST(HapticOverlay, ReadsOutWhichSurfaceIsTouchedAndWhyThereIsNoForce)
