@@ -41,6 +41,35 @@ void FindWeights(const haptics::Vec3& p, const haptics::Vec3 corners[3], double 
   }
   vtkMath::MultiplyScalar(weights, 1.0 / sum);
 }
+
+/// Makes zero of what rounding has left of it between values of both signs.
+void DropRounding(
+  vtkPointData* result, vtkPointData* corners, vtkIdList* ids, const double weights[3])
+{
+  constexpr double rounding = 1e-14; // of the values
+  for (int i = 0; i < result->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* const values = result->GetArray(i);
+    const bool isNamed = values && values->GetName();
+    vtkDataArray* const given = isNamed ? corners->GetArray(values->GetName()) : nullptr;
+    if (!given)
+    {
+      continue;
+    }
+    for (int c = 0; c < values->GetNumberOfComponents(); ++c)
+    {
+      double most = 0.0;
+      for (int corner = 0; corner < 3; ++corner)
+      {
+        most += weights[corner] * std::abs(given->GetComponent(ids->GetId(corner), c));
+      }
+      if (std::abs(values->GetComponent(0, c)) < rounding * most)
+      {
+        values->SetComponent(0, c, 0.0);
+      }
+    }
+  }
+}
 }
 
 void vtkHapticProbeFiller::SetTick(vtkHapticProbe* probe, const haptics::TickRecord& tick)
@@ -119,6 +148,7 @@ void vtkHapticProbeFiller::SetContact(vtkHapticProbe* probe, const haptics::Tick
   probe->PointValues->InterpolateAllocate(prepared->GetPointData(), 1);
   probe->PointValues->InterpolatePoint(prepared->GetPointData(), 0, ids, probe->Weights);
   probe->PointValues->RemoveArray("OriginalPointId");
+  DropRounding(probe->PointValues, prepared->GetPointData(), ids, probe->Weights);
   probe->CellValues->CopyAllOn();
   probe->CellValues->CopyAllocate(prepared->GetCellData(), 1);
   probe->CellValues->CopyData(prepared->GetCellData(), constraint.Triangle, 0);

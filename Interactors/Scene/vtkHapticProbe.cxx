@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <sstream>
 #include <string>
 
@@ -19,10 +20,12 @@ constexpr int MostLines = 8;
 /// Places this share of a surface's size apart have different digits.
 constexpr double Resolution = 1e-4;
 
+constexpr int MostDecimals = 9; // that are written out
+constexpr double LargestWritten = 1e9;
+
 /// How many digits a coordinate takes for that, five at least.
-int DigitsOf(double coordinate, double size)
+int DigitsOf(double coordinate, double step)
 {
-  const double step = Resolution * size;
   if (!(step > 0.0) || !(std::abs(coordinate) > step))
   {
     return 5;
@@ -30,6 +33,31 @@ int DigitsOf(double coordinate, double size)
   const double digits =
     1.0 + std::floor(std::log10(std::abs(coordinate))) - std::floor(std::log10(step));
   return static_cast<int>(std::clamp(digits, 5.0, 17.0));
+}
+
+/// As many decimals wherever the hand is on a surface, so that the text does not jump; what
+/// rounding has left of zero is zero.
+void WritePlace(std::ostream& text, const double place[3], double size)
+{
+  const double step = Resolution * size;
+  const double power = step > 0.0 ? std::floor(std::log10(step)) : 0.0;
+  const double least = step > 0.0 ? 0.05 * std::pow(10.0, power) : 0.0;
+  const double largest = std::max({ std::abs(place[0]), std::abs(place[1]), std::abs(place[2]) });
+  const bool isWrittenOut = step > 0.0 && 1.0 - power <= MostDecimals && largest < LargestWritten;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double coordinate = std::abs(place[axis]) < least ? 0.0 : place[axis];
+    text << (axis > 0 ? ", " : "");
+    if (isWrittenOut)
+    {
+      text << std::fixed << std::setprecision(static_cast<int>(std::max(0.0, 1.0 - power)));
+    }
+    else
+    {
+      text << std::setprecision(DigitsOf(coordinate, step));
+    }
+    text << coordinate << std::defaultfloat;
+  }
 }
 
 /// The id of the touched cell in the data that its surface is the outside of, where the filter that
@@ -112,11 +140,7 @@ std::string vtkHapticProbe::GetText()
   text << this->GetSurfaceName() << "   cell " << OriginalCell(this->CellValues, this->Cell)
        << "\n";
   const double size = this->Where.Surface ? this->Where.Surface->Diagonal() : 0.0;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    text.precision(DigitsOf(this->Position[axis], size));
-    text << (axis > 0 ? ", " : "") << this->Position[axis];
-  }
+  WritePlace(text, this->Position, size);
   int lines = 0;
   WriteValues(text, this->PointValues, lines);
   WriteValues(text, this->CellValues, lines);

@@ -17,6 +17,8 @@ from vtkhaptics.display import needs_display
 EXAMPLES = os.path.join(os.environ["HAPTICS_SOURCE_DIR"], "Interactors", "Python", "examples")
 HEADLESS = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
 
+TABLE = "OFF 4 1 0\n-1 -1 0\n1 -1 0\n1 1 0\n-1 1 0\n4 0 1 2 3\n"
+
 
 def size_of(png):
     """Width and height of a PNG picture."""
@@ -59,6 +61,19 @@ class Headless(unittest.TestCase):
         with self.assertRaisesRegex(vtkhaptics.HapticsError, "no array 'Nothing'"):
             vtkhaptics.picture_of(table, scalars="Nothing")
 
+    def test_a_picture_of_a_file_has_its_name(self):
+        with tempfile.TemporaryDirectory() as folder:
+            pictures = []
+            for name in ("surface.off", "a part of another name.off"):
+                path = os.path.join(folder, name)
+                with open(path, "w") as file:
+                    file.write(TABLE)
+                pictures.append(vtkhaptics.picture_of(path, size=(320, 240)).png)
+            self.assertNotEqual(*pictures)
+            missing = os.path.join(folder, "missing.off")
+            with self.assertRaisesRegex(vtkhaptics.HapticsError, "missing.off: there is no such file"):
+                vtkhaptics.picture_of(missing)
+
     def run_example(self, name, *arguments, **environment):
         return subprocess.run(
             [sys.executable, os.path.join(EXAMPLES, name), *arguments],
@@ -93,12 +108,11 @@ for _ in range(30):
         self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_a_signal_ends_the_viewer_in_order_and_leaves_no_process(self):
-        table = "OFF 4 1 0\n-1 -1 0\n1 -1 0\n1 1 0\n-1 1 0\n4 0 1 2 3\n"
         for number, status in ((signal.SIGTERM, 143), (signal.SIGHUP, 129), (signal.SIGINT, 130)):
             with tempfile.TemporaryDirectory() as folder:
                 surface, trace = (os.path.join(folder, name) for name in ("table.off", "trace.vtp"))
                 with open(surface, "w") as file:
-                    file.write(table)
+                    file.write(TABLE)
                 mark = f"HAPTICS_TEST_FOLDER={folder}"
                 program = subprocess.Popen(
                     [sys.executable, "-m", "vtkhaptics", surface, "--offscreen", "--seconds", "600", "--trace", trace],

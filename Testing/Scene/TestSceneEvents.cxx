@@ -283,6 +283,39 @@ TEST(HapticProbe, CoordinatesHaveTheDigitsThatDistinguishPlacesOnTheSurface)
   }
 }
 
+TEST(HapticProbe, WritesZeroForWhatRoundingHasLeftOfItAndAsManyDecimalsEverywhere)
+{
+  LedHand hand;
+  vtkSmartPointer<vtkPolyData> table = MakeTable(6.9388939039072284e-18);
+  vtkNew<vtkDoubleArray> across; // zero in the middle, but for rounding
+  across->SetName("Across");
+  for (vtkIdType i = 0; i < table->GetNumberOfPoints(); ++i)
+  {
+    across->InsertNextValue(0.1 * (table->GetPoint(i)[0] + table->GetPoint(i)[1]));
+  }
+  table->GetPointData()->AddArray(across);
+  hand.Scene->AddSurface(table);
+  hand.MoveTo(0.01);
+  std::set<std::size_t> lengths;
+  for (int i = 0; i < 20; ++i)
+  {
+    const double x = 0.001 * i;
+    hand.Device->SetPosition(x, -x, 0.01);
+    hand.Scene->Step(1);
+    hand.Device->SetPosition(x, -x, -0.001);
+    hand.Scene->Step(1);
+    const std::string text = hand.Scene->GetProbe()->GetText();
+    ASSERT_NE(text, "") << x;
+    EXPECT_EQ(text.find("e-"), std::string::npos) << text;
+    EXPECT_EQ(text.find("-0.00000"), std::string::npos) << text;
+    EXPECT_EQ(hand.Scene->GetProbe()->GetValue("Across"), 0.0) << text;
+    const std::size_t begin = text.find('\n') + 1;
+    const std::string place = text.substr(begin, text.find('\n', begin) - begin);
+    lengths.insert(place.size() - (x > 0.0 ? 1 : 0)); // without the sign
+  }
+  EXPECT_EQ(lengths.size(), 1U);
+}
+
 TEST(HapticLandmarks, DropListUndoAndExport)
 {
   LedHand hand;

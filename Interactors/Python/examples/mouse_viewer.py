@@ -7,6 +7,7 @@ usage: mouse_viewer.py [SECONDS]     with SECONDS it strokes by itself for so lo
 """
 
 import sys
+import time
 
 import vtkmodules.vtkInteractionStyle  # noqa: F401  (registers the interactors)
 from vtkmodules.vtkCommonComputationalGeometry import vtkParametricTorus
@@ -38,16 +39,16 @@ if len(sys.argv) > 1:
     strongest = 0.0
 
     def stroke(_caller, _event):
-        """Twenty times a second: on along a line across the ring, space held."""
-        global strongest, x
-        x += 2
-        touch.device.MoveTo(x, 120)
+        """At each timer's event: to and fro across the ring, 40 pixels a second, space held."""
+        global strongest
+        seconds = time.monotonic() - began
+        touch.device.MoveTo(350 - int(abs(40 * seconds % 200 - 100)), 120)
         touch.device.SetPressed(True)
         strongest = max(strongest, sum(f * f for f in touch.scene.GetForce()) ** 0.5)
-        if x >= 250 + 40 * float(sys.argv[1]):
+        if seconds >= float(sys.argv[1]):
             interactor.TerminateApp()
 
-    x = 250
+    began = time.monotonic()
     interactor.AddObserver("TimerEvent", stroke, 5.0)  # before the style, which keeps its own
     interactor.CreateRepeatingTimer(50)
 interactor.Start()

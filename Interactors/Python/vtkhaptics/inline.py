@@ -38,13 +38,16 @@ def picture_of(
     (without one a hand strokes the middle of the view), `scalars` the array to colour by and `size`
     in pixels. Needs no display: the viewer draws it, ``python3 -m vtkhaptics --offscreen``, in a
     process of its own, under a virtual display where there is none. Raises HapticsError with the
-    viewer's words where it cannot.
+    viewer's words where it cannot, as for a file that cannot be read.
 
     >>> vtkhaptics.picture_of("part.stl", t)       # the last line of a notebook's cell
     """
     with tempfile.TemporaryDirectory() as folder:
         files = [os.path.join(folder, name) for name in ("surface.vtp", "trace.vtp", "picture.png")]
-        write_polydata(files[0], polydata(surface))
+        if isinstance(surface, (str, os.PathLike)):
+            files[0] = os.path.abspath(surface)  # whose name the picture has
+        else:
+            write_polydata(files[0], polydata(surface))
         command = [sys.executable, "-m", "vtkhaptics", files[0], "--offscreen"]
         command += ["--screenshot", files[2], "--size", *map(str, size)]
         if trace is not None:
