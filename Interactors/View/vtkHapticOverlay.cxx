@@ -25,6 +25,7 @@ namespace
 constexpr double GroundColor[3] = { 0.09, 0.11, 0.15 };
 constexpr double GroundOpacity = 0.72;
 constexpr int Margin = 12;            // [pixel]
+constexpr int TextRim = 2;            // [pixel], of the ground that VTK adds around a text
 constexpr double LeastLines = 22.0;   // of text that a view has room for
 constexpr double LeastColumns = 30.0; // in heights of the text
 constexpr int LeastFontSize = 6;      // [pixel] that can be read
@@ -66,27 +67,22 @@ void SetBox(vtkPolyData* box, double x, double y, double width, double height)
   box->SetPolys(cells);
 }
 
-/// Text with a little room around it on its ground.
-std::string Padded(const std::string& text)
+/// Text with a little room around it on its ground: `after` goes to the right of each line.
+std::string Padded(const std::string& text, const std::string& after)
 {
   std::string padded = "  ";
   for (const char c : text)
   {
-    padded += c;
-    if (c == '\n')
-    {
-      padded += "  ";
-    }
+    padded += c == '\n' ? after + "\n  " : std::string(1, c);
   }
-  return padded + "  ";
+  return padded + after;
 }
 
 /// Shows text in a font of at most that size [pixel], smaller where a line would be wider than the
 /// room [pixel].
 void ShowFitting(vtkTextActor* part, const std::string& text, int size, double room, int resolution)
 {
-  const std::string padded = Padded(text);
-  part->SetInput(padded.c_str());
+  std::string padded = Padded(text, "  ");
   // Of a copy: what is changed and changed back is drawn anew.
   vtkNew<vtkTextProperty> look;
   look->ShallowCopy(part->GetTextProperty());
@@ -111,7 +107,12 @@ void ShowFitting(vtkTextActor* part, const std::string& text, int size, double r
       --fitting;
     }
     fitting = std::max(LeastFontSize, fitting);
+    if (widthAt(fitting) > room)
+    {
+      padded = Padded(text, "");
+    }
   }
+  part->SetInput(padded.c_str());
   part->GetTextProperty()->SetFontSize(fitting);
 }
 }
@@ -246,7 +247,7 @@ void vtkHapticOverlay::Arrange(vtkViewport* viewport)
   const int fontSize = static_cast<int>(this->Text / this->Unit);
   this->NumberPart->GetTextProperty()->SetFontSize(fontSize);
   const int resolution = window ? window->GetDPI() : 72; // 72: a point is a pixel
-  const double room = viewport->GetSize()[0] - 2.0 * Margin;
+  const double room = viewport->GetSize()[0] - 2.0 * (Margin + TextRim);
   const auto show = [fontSize, room, resolution](vtkTextActor* part, const std::string& text)
   { ShowFitting(part, text, fontSize, room, resolution); };
   this->ArrangeBar();
@@ -254,7 +255,7 @@ void vtkHapticOverlay::Arrange(vtkViewport* viewport)
   this->BarPart->SetVisibility(this->ShowForce && this->Force > 0.0);
   this->NumberPart->SetVisibility(this->ShowForce);
 
-  const double left = this->Left + Margin * this->Unit;
+  const double left = this->Left + (Margin + TextRim) * this->Unit;
   double above = this->Bottom + Margin * this->Unit;
   above += this->ShowForce ? 1.9 * this->Text + 6.0 * this->Unit : 0.0;
   show(this->StatusPart, this->Status);
@@ -268,7 +269,7 @@ void vtkHapticOverlay::Arrange(vtkViewport* viewport)
 
   const std::string& top = this->ShowHelp ? this->Help : this->Hint;
   show(this->HelpPart, top);
-  this->HelpPart->SetPosition(left, this->Bottom + height - Margin * this->Unit);
+  this->HelpPart->SetPosition(left, this->Bottom + height - (Margin + TextRim) * this->Unit);
   this->HelpPart->SetVisibility(!top.empty());
 }
 

@@ -1,5 +1,6 @@
 #include "vtkInteractorStyleHaptic.h"
 
+#include "haptics/Filters/LengthUnit.h"
 #include "haptics/Servo/EmergencyStop.h"
 #include "haptics/View/TypedKey.h"
 #include "vtkCallbackCommand.h"
@@ -14,6 +15,7 @@
 #include "vtkHapticServo.h"
 #include "vtkHapticSurfaces.h"
 #include "vtkHapticView.h"
+#include "vtkHapticWorkspace.h"
 #include "vtkObjectFactory.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderWindowInteractor.h"
@@ -25,6 +27,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iomanip>
+#include <locale>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -36,6 +41,7 @@ constexpr double LeastRest = 0.004; // [s] between two pictures, for the events
 constexpr double RestShare = 0.15;  // of the time that the last picture took
 
 constexpr double RefusalTime = 5.0; // [s] for which a reason can be read
+constexpr double NoticeTime = 2.0;  // [s] for which a few words can be read
 
 constexpr const char* CommandsOfVtk = "3aefjlpqrsuwAEFJLPQRSUW"; // that change what is drawn
 
@@ -317,14 +323,20 @@ void vtkInteractorStyleHaptic::ToggleLook(char key)
     case 'o':
     case 'O':
       actor->SetSeeThrough(!actor->GetSeeThrough());
+      this->Notify(actor->GetSeeThrough() ? "the hand is seen through the surface"
+                                          : "the surface hides the hand");
       break;
     case 't':
     case 'T':
       actor->SetShowActiveTriangles(!actor->GetShowActiveTriangles());
+      this->Notify(
+        actor->GetShowActiveTriangles() ? "touched triangles: on" : "touched triangles: off");
       break;
     default:
       actor->SetShowLegend(!actor->GetShowLegend());
       actor->SetColorForceByMagnitude(actor->GetShowLegend());
+      this->Notify(
+        actor->GetShowLegend() ? "colours of the force: on" : "colours of the force: off");
   }
 }
 
@@ -464,15 +476,23 @@ void vtkInteractorStyleHaptic::DropLandmark()
 
 void vtkInteractorStyleHaptic::Refuse(const std::string& reason)
 {
-  this->Refusal = reason;
-  this->RefusedUntil = vtkTimerLog::GetUniversalTime() + RefusalTime;
+  this->Notice = reason;
+  this->NoticedUntil = vtkTimerLog::GetUniversalTime() + RefusalTime;
+}
+
+/// Says what a key has done that is not seen at once, or not everywhere.
+void vtkInteractorStyleHaptic::Notify(const std::string& what)
+{
+  this->Notice = what;
+  this->NoticedUntil = vtkTimerLog::GetUniversalTime() + NoticeTime;
+  this->ShowStatus();
 }
 
 std::string vtkInteractorStyleHaptic::DescribeState()
 {
-  if (vtkTimerLog::GetUniversalTime() < this->RefusedUntil)
+  if (vtkTimerLog::GetUniversalTime() < this->NoticedUntil)
   {
-    return this->Refusal;
+    return this->Notice;
   }
   vtkHapticDevice* device = this->Scene->GetDevice();
   const char* waits = device ? device->GetStatusMessage() : "";
@@ -533,6 +553,42 @@ void vtkInteractorStyleHaptic::ToggleTrail()
   {
     actor->ClearTrail();
   }
+  this->Notify(actor->GetShowTrail() ? "trail: on" : "trail: off");
+}
+
+void vtkInteractorStyleHaptic::FitWorkspace()
+{
+  vtkRenderer* renderer = this->FindRenderer();
+  if (renderer && !this->Scene->FitWorkspace(renderer->GetActiveCamera()))
+  {
+    this->Refuse(this->Scene->GetErrorMessage());
+  }
+  else if (renderer)
+  {
+    this->Notify("the hand's space is fitted to the view");
+  }
+}
+
+/// Says how far the hand goes as well, as one press is seen like the next.
+void vtkInteractorStyleHaptic::ScaleWorkspace(double factor)
+{
+  if (factor > 0.0)
+  {
+    this->Scene->ScaleWorkspace(factor);
+  }
+  else
+  {
+    this->Scene->ResetWorkspace();
+  }
+  vtkHapticWorkspace* const workspace = this->Scene->GetWorkspace();
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << (factor > 1.0      ? "farther"
+              : factor > 0.0 ? "less far"
+                             : "as far as at first")
+       << ": 10 mm move the hand by " << std::setprecision(3) << 0.01 * workspace->GetScale() << " "
+       << haptics::LengthUnitName(workspace->GetUnitLength());
+  this->Notify(text.str());
 }
 
 void vtkInteractorStyleHaptic::ToggleGrip()
@@ -565,6 +621,10 @@ void vtkInteractorStyleHaptic::OnChar()
   {
     return; // no command of ours nor of VTK's, but perhaps one of the program's
   }
+  if (std::strchr("hHcCxX", key))
+  {
+    this->NoticedUntil = 0.0; // the state says it
+  }
   switch (key)
   {
     case 'h':
@@ -576,13 +636,7 @@ void vtkInteractorStyleHaptic::OnChar()
       break;
     case 'v':
     case 'V':
-      if (vtkRenderer* renderer = this->FindRenderer())
-      {
-        if (!this->Scene->FitWorkspace(renderer->GetActiveCamera()))
-        {
-          this->Refuse(this->Scene->GetErrorMessage());
-        }
-      }
+      this->FitWorkspace();
       break;
     case 'b':
     case 'B':
@@ -606,10 +660,10 @@ void vtkInteractorStyleHaptic::OnChar()
       break;
     case '+':
     case '-':
-      this->Scene->ScaleWorkspace(key == '+' ? 1.25 : 0.8);
+      this->ScaleWorkspace(key == '+' ? 1.25 : 0.8);
       break;
     case '0':
-      this->Scene->ResetWorkspace();
+      this->ScaleWorkspace(0.0);
       break;
     case 'o':
     case 'O':

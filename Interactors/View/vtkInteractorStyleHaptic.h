@@ -27,8 +27,8 @@
  * they are without Shift.
  *
  * Where the scene's overlay is in the picture it says what the hand does (touching, waiting,
- * clutched, released, preparing) and why a key did nothing; with a mouse also how to begin, until
- * the first touch.
+ * clutched, released, preparing), for a while what a key did that is not seen at once, and why one
+ * did nothing; with a mouse also how to begin, until the first touch.
  *
  * A vtkMouseHapticDevice that is the scene's device is connected to the interactor; it takes the
  * wheel and the space bar for itself while it is open.
@@ -132,12 +132,15 @@ private:
   void Engage();
   void DropLandmark();
   void Refuse(const std::string& reason);
+  void Notify(const std::string& what);
   void ShowStatus();
   std::string DescribeState();
   void ToggleGrip();
   void ToggleHelp();
   void ToggleLook(char key);
   void ToggleTrail();
+  void FitWorkspace();
+  void ScaleWorkspace(double factor);
   void Render(vtkRenderer* renderer);
   template <typename Function>
   void DrawLater(Function handle);
@@ -157,8 +160,8 @@ private:
   bool StartingTimer = false;
   bool MustRender = false;
   bool HasTouched = false;   ///< the hint is not needed any more
-  std::string Refusal;       ///< why the last key did nothing
-  double RefusedUntil = 0.0; ///< [s] that is shown
+  std::string Notice;        ///< what the last key did, or why it did nothing
+  double NoticedUntil = 0.0; ///< [s] that is shown
   vtkMTimeType ShownOverlay = 0;
   bool Interrupted = false;
   std::uint32_t InterruptsBefore = 0;

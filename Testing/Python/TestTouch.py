@@ -11,10 +11,14 @@ PROGRAM = """
 import numpy as np
 import vtkhaptics
 
-x, y = (0.05 * axis for axis in np.meshgrid([-1.0, 1.0], [-1.0, 1.0]))
-table = (np.stack([x.ravel(), y.ravel(), np.zeros(4)], axis=1), [[0, 1, 3, 2]])
+# A step down, and a table that is concave, which VTK would draw as a fan: its cell is still one.
+corners = np.array([(-1, -1), (0.5, 0), (1, -1), (1, 1), (-1, 1)]) * 0.05
+below = [(-0.01, -0.01, -0.02), (0.01, -0.01, -0.02), (0, 0.01, -0.02)]
+vertices = np.vstack([below, np.column_stack([corners, np.zeros(5)])])
+table = (vertices, [[0, 1, 2], [3, 4, 5, 6, 7]])
 print("ready", flush=True)
 t = vtkhaptics.touch(table, size=(400, 300))
+assert set(t["OriginalCellId"][t.touching]) == {1}, "the cell of the array that was given"
 print(f"{len(t)} ticks, {t.touching.sum()} touching, up to {t.magnitude.max():.2f} N", flush=True)
 """
 

@@ -24,6 +24,7 @@ import vtkhaptics
 from vtkhaptics import detail, surfaces
 from vtkhaptics import viewer as viewer_module
 from vtkhaptics.arguments import EPILOG, parse
+from vtkhaptics.coloring import scalar_bar, value_colors
 from vtkhaptics.picture import fill_view, save_window
 from vtkhaptics.progress import ProgressBar
 from vtkhaptics.recording import read_recording
@@ -410,6 +411,18 @@ def test_bar_and_colours_end_at_the_largest_force(folder):
         assert hand.GetForceColors().GetRange() == (0.0, strongest), (more, strongest)
 
 
+def test_a_scale_has_zero_where_rounding_has_left_something():
+    for low, high, right in (
+        (-0.5, 1.0, ["-0.5", "0", "0.5", "1"]), (-0.2, 0.1, ["-0.2", "-0.1", "0", "0.1"]),
+        (-0.0, 3.0, ["0", "1", "2", "3"]), (0.0, 5.0, ["0", "1.67", "3.33", "5"]),
+        (-3e-12, 6e-12, ["-3e-12", "0", "3e-12", "6e-12"]),
+    ):
+        bar = scalar_bar(value_colors(low, high), "values")
+        labels = vtk_to_numpy(bar.GetCustomLabels())
+        assert bar.GetUseCustomLabels(), "else VTK makes its own"
+        assert [bar.GetLabelFormat() % label for label in labels] == right, (low, high, labels)
+
+
 def test_bad_input(folder):
     surface = ball(0.0, folder)
     line = vtkLineSource()
@@ -431,8 +444,10 @@ def test_bad_input(folder):
         (2, "is a folder, and what is in it", (nothing,)),
         (2, "not known", (__file__,)),
         (2, "It has: ", (surface, "--scalars", "Hieght")),
-        (1, "neither a device", (surface, "--device", "mice")),
-        (1, "holds no recorded hand", (surface, "--device", lines)),
+        (2, "neither a device", (surface, "--device", "joystick")),
+        (2, "no id of a device", (surface, "--device", "mouse:3")),
+        (2, "holds no recorded hand", (surface, "--device", lines)),
+        (2, "neither a device", (os.path.join(folder, "missing.stl"), "--device", "joystick")),  # before a surface
         (1, "could not be written", (surface, "--trace", os.path.join(folder, "no", "t.vtp"))),
         (2, "out of range", (surface, "--stiffness", "-1")),
         (2, "must end in .png", (surface, "--screenshot", "a.jpg")),
@@ -641,3 +656,4 @@ with tempfile.TemporaryDirectory() as scratch:
     ):
         test(scratch)
 test_progress()
+test_a_scale_has_zero_where_rounding_has_left_something()

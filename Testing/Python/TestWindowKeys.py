@@ -31,7 +31,17 @@ def say(*_):
         said = now
         print(*now, flush=True)
 
+shown = None
+
+def say_status(*_):
+    global shown
+    status = touch.style.GetView().GetOverlay().GetStatus()
+    if status != shown:
+        shown = status
+        print("status:", status, flush=True)
+
 interactor.AddObserver("TimerEvent", say, 5.0)
+interactor.AddObserver("TimerEvent", say_status, 5.0)
 interactor.Start()
 """
 
@@ -65,6 +75,39 @@ def test_shifted_keys_and_keypads(desktop, folder):
     program.key("F1")
     program.says("True 1.0")
     program.key("ctrl+q")  # no command
+    program.key("q")
+    assert program.ended(20.0) == 0
+
+
+def test_a_key_says_what_it_did(desktop, folder):
+    script = os.path.join(folder, "plot.py")
+    with open(script, "w", encoding="utf-8") as file:
+        file.write(PLOT)
+    program = desktop.start([sys.executable, script])
+    program.focus()
+    program.says("status: ")
+
+    def statuses():
+        return [line for line in program.output().splitlines() if line.startswith("status: ")]
+
+    rest = statuses()[-1]
+    for key, words in (
+        ("o", "surface hides the hand|hand is seen through"), ("o", "surface hides the hand|hand is seen through"),
+        ("b", "trail: off|trail: on"), ("b", "trail: off|trail: on"), ("t", "touched triangles: on"),
+        ("t", "touched triangles: off"), ("g", "colours of the force: on"), ("g", "colours of the force: off"),
+        ("plus", "farther: 10 mm move the hand by "), ("plus", "farther: 10 mm move the hand by "),
+        ("minus", "less far: 10 mm move the hand by "), ("0", "as far as at first: 10 mm move the hand by "),
+        ("v", "fitted to the view"),
+    ):
+        count = len(statuses())
+        program.key(key)
+        wait_for(lambda count=count: len(statuses()) > count, 20.0, f"a word on {key}")
+        assert any(word in statuses()[count] for word in words.split("|")), (key, statuses())
+    assert len(set(statuses())) >= 13, "every other press says something else"
+    wait_for(lambda: statuses()[-1] == rest, 20.0, "the state again")
+    program.key("plus")
+    program.key("c")
+    program.says("status: clutched")  # at once, in the place of the words
     program.key("q")
     assert program.ended(20.0) == 0
 
@@ -122,4 +165,5 @@ def test_a_held_space_bar_is_one_contact(desktop, folder):
 skip_where_it_cannot_run()
 with Desktop() as screen, tempfile.TemporaryDirectory() as scratch:
     test_shifted_keys_and_keypads(screen, scratch)
+    test_a_key_says_what_it_did(screen, scratch)
     test_a_held_space_bar_is_one_contact(screen, scratch)

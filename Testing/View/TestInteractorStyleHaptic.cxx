@@ -16,6 +16,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <set>
 #include <string>
 #include <thread>
 
@@ -296,6 +297,49 @@ bool IsRightEdgeEmpty(vtkRenderWindow* window)
   }
   return true;
 }
+}
+
+TEST(HapticOverlay, AllBoxesBeginInOneColumnAndHaveRoomAroundTheirText)
+{
+  vtkNew<vtkRenderer> renderer;
+  vtkNew<vtkRenderWindow> window;
+  vtkNew<vtkHapticOverlay> overlay;
+  renderer->AddViewProp(overlay);
+  renderer->SetBackground(0.0, 0.5, 0.0);
+  window->SetOffScreenRendering(1);
+  window->SetMultiSamples(0);
+  const int size[2] = { 900, 400 };
+  window->SetSize(size[0], size[1]);
+  window->AddRenderer(renderer);
+  overlay->SetHint("short\n(the longest line of a text, which ends in this)\nshort");
+  overlay->SetStatus("|touching|");
+  overlay->SetReadout("table   cell 0\n0.1, -0.1, 0.2");
+  window->Render();
+  vtkNew<vtkUnsignedCharArray> pixels;
+  window->GetPixelData(0, 0, size[0] - 1, size[1] - 1, 0, pixels);
+  std::set<int> begins;
+  for (int y = 0; y < size[1]; ++y)
+  {
+    int first = -1;
+    int last = -1;
+    int lastLetter = -1;
+    for (int x = 0; x < size[0]; ++x)
+    {
+      const vtkIdType pixel = static_cast<vtkIdType>(y) * size[0] + x;
+      if (pixels->GetComponent(pixel, 1) != pixels->GetComponent(size[0] - 1, 1))
+      {
+        first = first < 0 ? x : first;
+        last = x;
+        lastLetter = pixels->GetComponent(pixel, 0) > 150.0 ? x : lastLetter;
+      }
+    }
+    if (first >= 0)
+    {
+      begins.insert(first);
+      EXPECT_GE(last - lastLetter, 6) << "in the row " << y;
+    }
+  }
+  EXPECT_EQ(begins.size(), 1U);
 }
 
 TEST(HapticOverlay, NoTextIsCutOffInANarrowView)

@@ -3,7 +3,8 @@
 import argparse
 import math
 
-from .devices import list_devices, remembered_device
+from . import vtkHapticDevice
+from .devices import known_devices, list_devices, remembered_device
 from .surfaces import FORMATS
 from .units import METRES
 
@@ -33,8 +34,8 @@ few files name their length unit (glTF, DICOM, NIfTI and GIfTI do): sizes are sh
 with that of --unit, and the hand's space is fitted to them.
 
 exit status:
-  0 done; 1 the device or the servo failed, or a file could not be written; 2 wrong arguments or a
-  surface that cannot be read; 3 no display to draw with; 130, 143, 129 ended by Ctrl-C (SIGINT),
+  0 done; 1 the device or the servo failed, or a file could not be written; 2 wrong arguments, or a
+  surface or recording that cannot be read; 3 no display to draw with; 130, 143, 129 ended by Ctrl-C (SIGINT),
   SIGTERM or SIGHUP, with the results until then, where the surfaces had been ready
 """
 
@@ -201,6 +202,10 @@ def parse(arguments):
         options.device = "mouse" if options.offscreen else remembered_device()
     if options.force_limit is not None and not 0.0 <= options.force_limit <= 50.0:
         parser.error(f"--force-limit {options.force_limit:g} is out of range; give 0 to 50 N")
+    if options.device.partition(":")[0] in (name for name, _ in known_devices()):
+        problem = vtkHapticDevice.GetNameProblem(options.device)
+        if problem:
+            parser.error(f"--device {options.device}: {problem}")
     if options.firmware and options.device.partition(":")[0] != "falcon":
         parser.error("--firmware is for --device falcon")
     check_seconds(parser, options)

@@ -1,11 +1,13 @@
 """Colours surfaces by their data arrays, with a scale bar."""
 
+from vtkmodules.vtkCommonCore import vtkDoubleArray
 from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
 from vtkmodules.vtkRenderingCore import vtkColorTransferFunction
 
 from .classes import CLASSES
 from .surfaces import default_array, value_arrays
 
+LABELS = 4  # of a scale
 TEXT = (0.18, 0.21, 0.27)
 # Dark blue over green to yellow: even steps for the eye, readable without colours.
 VALUE_COLORS = (
@@ -55,7 +57,9 @@ def scalar_bar(table, name, size=None):
     bar = vtkScalarBarActor()
     bar.SetLookupTable(table)
     bar.SetTitle(name)
-    bar.SetNumberOfLabels(4)
+    bar.SetNumberOfLabels(LABELS)
+    bar.SetCustomLabels(_labels(*table.GetRange()))
+    bar.UseCustomLabelsOn()
     bar.SetLabelFormat("%.3g")
     bar.UnconstrainedFontSizeOn()
     bar.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
@@ -76,6 +80,15 @@ def scalar_bar(table, name, size=None):
         text.BoldOff()
         text.ShadowOff()
     return bar
+
+
+def _labels(low, high):
+    """The values that are written at a scale, where rounding would leave -5.6e-17 of zero."""
+    labels = vtkDoubleArray()
+    for i in range(LABELS):
+        value = low + i / (LABELS - 1) * (high - low)
+        labels.InsertNextValue(value if abs(value) > 1e-9 * max(abs(low), abs(high)) else 0.0)
+    return labels
 
 
 def force_colors(strongest):

@@ -62,7 +62,11 @@ class Viewer:
     """A window over a haptic scene with the surfaces of some files."""
 
     def __init__(self, options, interrupts=None):
+        """Reads the recording that is the device. Raises RecordingError."""
         self.options = options
+        kind = options.device.partition(":")[0]
+        is_device = any(kind == known for known, _ in known_devices())
+        self.recording = None if is_device else read_recording(options.device)
         self.interrupts = interrupts or Interrupts()
         self.renderer = vtkRenderer()
         self.renderer.SetBackground(*BACKGROUND[0])
@@ -252,10 +256,9 @@ class Viewer:
     def connect(self):
         """Gives the scene its device. Raises ViewerError, StrokeError."""
         name = self.options.device
-        kind = name.partition(":")[0]
-        if not any(kind == known for known, _ in known_devices()):
+        if self.recording:
             self._connect(create_device("simulated"))
-            self._follow(read_recording(name))
+            self._follow(self.recording)
             return
         self._connect(create_device(name))  # raises HapticsError
         if self.device.NeedsPath():
@@ -450,10 +453,10 @@ def main(arguments=None):
     except DisplayError as error:
         print(f"vtkhaptics: {error}", file=sys.stderr)
         return EXIT_DISPLAY
-    except SurfaceError as error:
+    except (RecordingError, SurfaceError) as error:
         print(f"vtkhaptics: {error}", file=sys.stderr)
         return EXIT_INPUT
-    except (HapticsError, OutputError, RecordingError, StrokeError, ViewerError) as error:
+    except (HapticsError, OutputError, StrokeError, ViewerError) as error:
         print(f"vtkhaptics: {error}", file=sys.stderr)
         return EXIT_FAILED
     except KeyboardInterrupt:
