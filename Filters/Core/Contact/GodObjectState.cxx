@@ -99,7 +99,8 @@ bool GodObjectState::MoveCentre(const Vector& to)
 
 /// Whether each plane that holds the god-object does so with its own facet. One that holds it
 /// beyond its facet's edges has to be let go of: Fig. 5b.
-bool GodObjectState::IsSupported()
+/// `beyond`: set to the facet of that plane.
+bool GodObjectState::IsSupported(FacetId& beyond)
 {
   if (this->Active.IsKnownOver())
   {
@@ -111,6 +112,7 @@ bool GodObjectState::IsSupported()
     bool isInside = false;
     if (!this->IsOver(this->Active.Support(i), isInside))
     {
+      beyond = this->Active.Support(i).Facet;
       return false;
     }
     areInside = areInside && isInside;
@@ -119,8 +121,9 @@ bool GodObjectState::IsSupported()
   return true;
 }
 
-/// Keeps of the planes that held the god-object those that do so with their own facets.
-void GodObjectState::KeepSupports(bool keepsFar)
+/// Keeps of the planes that held the god-object those that do so with their own facets. `beyond`:
+/// one that is known not to.
+void GodObjectState::KeepSupports(bool keepsFar, const FacetId& beyond)
 {
   if (this->Around.IsBall())
   {
@@ -137,7 +140,7 @@ void GodObjectState::KeepSupports(bool keepsFar)
         return false;
       }
       bool isInside = true;
-      const bool isKept = isKnown || this->IsOver(plane, isInside);
+      const bool isKept = isKnown || (!(plane.Facet == beyond) && this->IsOver(plane, isInside));
       areInside = areInside && isInside;
       return isKept;
     });

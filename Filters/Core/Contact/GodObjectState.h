@@ -43,8 +43,8 @@ public:
 
   ///@{
   /// The planes that hold it.
-  bool IsSupported();
-  void KeepSupports(bool keepsFar);
+  bool IsSupported(FacetId& beyond);
+  void KeepSupports(bool keepsFar, const FacetId& beyond = FacetId());
   bool IsOver(const ActivePlane& plane, bool& isInside) const
   {
     return this->Around.Sets[plane.Facet.Surface].Covers(

@@ -40,6 +40,7 @@ private:
 
 bool PointWalk::Walk(const Vector& goal)
 {
+  FacetId beyond;
   while (this->God.PassesLeft-- > 0)
   {
     if (this->God.Active.IsEmpty() && this->God.Around.IsKnownClear(goal, this->God.Active))
@@ -48,7 +49,7 @@ bool PointWalk::Walk(const Vector& goal)
       return true;
     }
     const Vector before = this->God.Position;
-    const bool arrived = this->Pass(goal);
+    const bool arrived = this->Pass(goal, beyond);
     this->Change.Stop();
     if (this->God.Position == goal)
     {
@@ -58,24 +59,29 @@ bool PointWalk::Walk(const Vector& goal)
     {
       return false;
     }
-    const bool isSupported = arrived && this->God.IsSupported();
-    const bool isHeld = isSupported ||
-      SquaredLength(this->God.Position - before) <= 1e-18 * SquaredLength(goal - before);
-    if (isHeld && !this->Planes.Release(goal))
+    beyond = FacetId();
+    const bool isSupported = arrived && this->God.IsSupported(beyond);
+    if (isSupported ||
+      SquaredLength(this->God.Position - before) <= 1e-18 * SquaredLength(goal - before))
     {
-      return isSupported;
+      if (!this->Planes.Release(goal))
+      {
+        return isSupported;
+      }
+      beyond = FacetId();
     }
   }
   return false;
 }
 
-/// Moves to the nearest point to the HIP that the facets met on the way allow.
+/// Moves to the nearest point to the HIP that the facets met on the way allow. `beyond`: of what
+/// holds the god-object, a facet that is known not to be below it.
 /// True if it came there.
-bool PointWalk::Pass(const Vector& hip)
+bool PointWalk::Pass(const Vector& hip, const FacetId& beyond)
 {
   // The facets that the god-object lies on hold it still: the cast to the HIP would meet them
   // first, so it is left out.
-  this->God.KeepSupports(false);
+  this->God.KeepSupports(false, beyond);
   Vector goal =
     this->God.Active.IsEmpty() ? hip : this->God.Active.Nearest(this->God.Position, hip);
   FacetsPassedOver passed;

@@ -28,7 +28,7 @@ public:
   void LookAhead(const Vector& hip);
 
 private:
-  bool Pass(const Vector& hip);
+  bool Pass(const Vector& hip, const FacetId& beyond);
   bool MeetsAgain(const Vector& hip) const;
 
   GodObjectState& God;
