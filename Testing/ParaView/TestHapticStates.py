@@ -100,7 +100,7 @@ class User:
 
     def give(self, file):
         """A file to the dialog that has the keyboard; relative names would be those of a folder seen before."""
-        self.desktop.xdo("type", "--delay", "20", file)
+        self.desktop.type(file)
         time.sleep(0.5)
         self.program.key("Return")
 

@@ -285,7 +285,7 @@ def touch_a_contour(desktop, program):
     # Clip hides what it clips, as it always does; the hand waits for what can be touched to be shown again.
     program.key("ctrl+space")
     real_window.wait_for(lambda: desktop.xdo("getwindowfocus") != program.window, SECONDS, "the search of filters")
-    desktop.xdo("type", "--delay", "50", "Clip")
+    desktop.type("Clip")
     time.sleep(0.5)
     program.key("shift+Return")
     hand.wait(lambda state, *_: state == "Engaged, waiting: nothing that can be touched is shown",
@@ -303,7 +303,7 @@ def touch_what_is_applied_again(desktop, program):
     program.says("READY", SECONDS)
     program.key("ctrl+space")
     real_window.wait_for(lambda: desktop.xdo("getwindowfocus") != program.window, SECONDS, "the search of sources")
-    desktop.xdo("type", "--delay", "50", "Sphere")
+    desktop.type("Sphere")
     time.sleep(0.5)
     program.key("shift+Return")
     time.sleep(1.0)

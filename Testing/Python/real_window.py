@@ -8,6 +8,7 @@
 """
 
 import os
+import re
 import select
 import shutil
 import signal
@@ -121,6 +122,13 @@ class Desktop:
         )
         assert done.returncode == 0 or not check, (words, done.stderr)
         return done.stdout.strip() if done.returncode == 0 else None
+
+    def type(self, text):
+        """Types a text. A letter that follows itself comes after a pause: under load a program may take the second of
+        them, whose press follows the first's release at once, for a key that was held."""
+        for part in re.sub(r"(.)(?=\1)", "\\1\0", text).split("\0"):
+            self.xdo("type", "--delay", "50", "--", part)
+            time.sleep(0.2)
 
     def layout(self, name):
         """Chooses a keyboard, by its name for X."""
