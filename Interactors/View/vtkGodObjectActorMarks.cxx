@@ -59,6 +59,19 @@ void DrawRoundNearer(vtkActor* part)
     false);
 }
 
+/// Where VTK is to resolve coincident topology, as in ParaView, it shifts all points and lines of a
+/// program by an offset. For balls and tubes it takes that from a depth that it has not written
+/// yet: on some drivers that is no number, and nothing of them is seen. Lift() is enough.
+void TakeOffsetBack(vtkActor* part)
+{
+  double factor = 0.0;
+  double units = 0.0;
+  vtkMapper::GetResolveCoincidentTopologyPointOffsetParameter(units);
+  part->GetMapper()->SetRelativeCoincidentTopologyPointOffsetParameter(-units);
+  vtkMapper::GetResolveCoincidentTopologyLineOffsetParameters(factor, units);
+  part->GetMapper()->SetRelativeCoincidentTopologyLineOffsetParameters(-factor, -units);
+}
+
 /// Lifts a part by the width of some pixels, wherever it is: at a distance d in perspective a pixel
 /// is c d wide, the depth buffer's slope goes with 1/d^2, and gl_FragCoord.w is 1/d. In parallel
 /// projection all three are constant.
@@ -289,8 +302,11 @@ void vtkGodObjectActor::ArrangeMarks(vtkViewport* viewport)
     this->BuildTrail();
   }
   this->TrailPart->SetVisibility(this->ShowTrail && this->Trail->GetNumberOfLines() > 0);
-  Lift(this->TrailPart, viewport, TrailLift);
-  Lift(this->LandmarksPart, viewport, TrailLift);
+  for (vtkActor* const part : { this->TrailPart.Get(), this->LandmarksPart.Get() })
+  {
+    TakeOffsetBack(part);
+    Lift(part, viewport, TrailLift);
+  }
   Lift(this->TrianglesPart, viewport, TrianglesLift);
   this->TrianglesPart->SetVisibility(this->ShowHand && this->ShowActiveTriangles &&
     this->Touching && this->Triangles->GetNumberOfPolys() > 0);

@@ -61,6 +61,27 @@ def show(hand):
 """
 )
 
+# How many pixels have the colour of landmarks' balls.
+VALUES = window_scene.scene("""
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
+
+
+def ball_pixels():
+    window = view.GetRenderWindow()
+    width, height = window.GetSize()
+    pixels = vtkUnsignedCharArray()
+    window.GetPixelData(0, 0, width - 1, height - 1, 0, pixels, 0)
+    red, green, blue = vtk_to_numpy(pixels).reshape(-1, 3).T.astype(int)
+    return int(((green > 100) & (green > 2 * red) & (blue > green)).sum())
+
+
+def show(hand):
+    if hand.NumberOfLandmarks:
+        print("BALLS", ball_pixels())
+    print(f"STATE {hand.State} | {hand.ForceMagnitude:.3f} | {hand.NumberOfLandmarks} | False | [] | 0")
+""")
+
 # A view in which nothing is shown yet.
 EMPTY = window_scene.PRINT + """
 from paraview import servermanager
@@ -108,6 +129,10 @@ class Hand:
     def shown(self):
         """The names of the sources that the view shows."""
         return re.findall(r"^SHOWN(.*)$", self.program.output(), re.M)[-1].split()
+
+    def says(self, name):
+        """The last that ParaView has said under a name, as a number."""
+        return float((re.findall(rf"^{name} (.*)$", self.program.output(), re.M) or ["nan"])[-1])
 
     def wait_shown(self, *names):
         real_window.wait_for(lambda: self.shown() == list(names), SECONDS, f"{names}; shown is {self.shown()}")
@@ -321,6 +346,25 @@ def touch_what_is_applied_again(desktop, program):
     hand.wait(lambda state, *_: state.startswith("Engaged"), "Touch of what is applied again")
 
 
+def see_landmarks(desktop, program):
+    """A landmark has a ball in the picture, of the size that it has in the viewer."""
+    hand = Hand(program)
+    program.says("READY", SECONDS)
+    program.focus()
+    program.key("ctrl+shift+t")
+    hand.wait(lambda state, *_: state.startswith("Engaged"), "Touch to engage")
+    program.move(0.46, 0.70)
+    program.drag(0.47, 0.71)
+    desktop.xdo("keydown", "space")
+    hand.wait(lambda state, force, *_: force > 1.0, "contact")
+    program.key("l")
+    hand.wait(lambda state, force, landmarks, *_: landmarks == 1, "a landmark")
+    program.drag(0.42, 0.71)
+    desktop.xdo("keyup", "space")
+    hand.wait(lambda state, force, *_: force == 0.0, "letting go")
+    real_window.wait_for(lambda: hand.says("BALLS") > 20, SECONDS, "the landmark's ball")
+
+
 def run(scene, test):
     with window_scene.home(scene) as (_, script), real_window.Desktop() as desktop:
         program = desktop.start([PARAVIEW, "--dr", f"--plugin-search-paths={os.path.dirname(PLUGIN)}",
@@ -337,6 +381,7 @@ def main():
     real_window.skip_where_it_cannot_run()
     run(SCENE, touch_a_contour)
     run(EMPTY, touch_what_is_applied_again)
+    run(VALUES, see_landmarks)
 
 
 main()
