@@ -7,6 +7,7 @@
 #include "pqCoreUtilities.h"
 #include "pqDataRepresentation.h"
 #include "pqHapticsBrush.h"
+#include "pqHapticsKeyboard.h"
 #include "pqHapticsPen.h"
 #include "pqHapticsRecorder.h"
 #include "pqOutputPort.h"
@@ -107,6 +108,7 @@ pqHapticsManager::pqHapticsManager(QObject* parent)
 {
   this->setObjectName("HapticsManager");
   new pqHapticsBrush(this);
+  new pqHapticsKeyboard(this);
   haptics::ExtendPython();
   this->Resting.setSingleShot(true);
   this->Resting.setInterval(RestTime);
@@ -444,12 +446,18 @@ void pqHapticsManager::bringSurfaces(bool isDrawn)
   }
 }
 
+QWidget* pqHapticsManager::viewWidget() const
+{
+  auto* container = this->View ? qobject_cast<pqQVTKWidget*>(this->View->widget()) : nullptr;
+  return container ? container->renderWidget() : nullptr;
+}
+
 /// Keys go to where the hand is.
 void pqHapticsManager::focusView()
 {
-  auto* container = qobject_cast<pqQVTKWidget*>(this->View->widget());
-  if (QWidget* widget = container ? container->renderWidget() : nullptr)
+  if (QWidget* widget = this->viewWidget())
   {
+    widget->activateWindow(); // a panel may be a window of its own
     widget->setFocus(Qt::OtherFocusReason);
   }
 }

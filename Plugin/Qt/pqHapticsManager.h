@@ -33,6 +33,7 @@ class pqHapticsPen;
 class pqHapticsRecorder;
 class pqOutputPort;
 class pqView;
+class QWidget;
 class vtkHapticScene;
 class vtkHapticDevice;
 class vtkPVHapticScene;
@@ -68,6 +69,8 @@ public:
   pqHapticsRecorder* recorder() const { return this->Recorder; }
   /** Never null. */
   pqHapticsPen* pen() const { return this->Pen; }
+  /** What shows the touched view, and has its keys; null where there is none. */
+  QWidget* viewWidget() const;
   /** What is touched just now; null in free space. */
   pqOutputPort* touchedPort() const;
 
@@ -106,6 +109,8 @@ public Q_SLOTS:
   void command(const char* property);
   /** Looks at the scene now. */
   void poll();
+  /** Gives the keyboard to the touched view. */
+  void focusView();
   /** Draws the views that show the hand, for what is drawn otherwise than before. */
   void redraw();
   /** Shows what cannot be done and what to do instead, in a message box that is not modal. */
@@ -134,7 +139,6 @@ private:
   void noticeState();
   void proveAsked();
   bool show(pqOutputPort* port, pqView* view, QString& problem);
-  void focusView();
   void bringSurfaces(bool isDrawn);
   void draw();
   void drawAll(vtkSMViewProxy* view);

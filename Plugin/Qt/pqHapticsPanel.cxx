@@ -29,6 +29,7 @@
 #include <QSignalBlocker>
 
 #include <algorithm>
+#include <cmath>
 
 namespace
 {
@@ -49,6 +50,17 @@ void fixLines(QLabel* label, int lines)
 {
   label->setFixedHeight(lines * label->fontMetrics().lineSpacing() + 2);
   label->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+}
+
+/// Shows a value in a box, where that has another one: a text that is typed there stays.
+void showValue(QDoubleSpinBox* box, double value)
+{
+  const double rounding = 0.5 * std::pow(10.0, -box->decimals());
+  if (std::abs(box->value() - value) > rounding)
+  {
+    const QSignalBlocker blocker(box);
+    box->setValue(value);
+  }
 }
 
 /// The components of an array with as many digits as fit next to each other.
@@ -285,17 +297,14 @@ void pqHapticsPanel::showSettings()
       : static_cast<int>(vtkHapticLandmarks::STRAIGHT));
   if (vtkSMProxy* values = this->Manager->values())
   {
-    const QSignalBlocker stiffness(form.stiffness);
-    const QSignalBlocker force(form.maximumForce);
-    form.stiffness->setValue(vtkSMPropertyHelper(values, "Stiffness").GetAsDouble());
-    form.maximumForce->setValue(vtkSMPropertyHelper(values, "MaximumForce").GetAsDouble());
+    showValue(form.stiffness, vtkSMPropertyHelper(values, "Stiffness").GetAsDouble());
+    showValue(form.maximumForce, vtkSMPropertyHelper(values, "MaximumForce").GetAsDouble());
     form.side->setCurrentIndex(vtkSMPropertyHelper(values, "Side").GetAsInt());
     form.showForce->setChecked(vtkSMPropertyHelper(values, "ShowForce").GetAsInt() != 0);
     form.showReadout->setChecked(vtkSMPropertyHelper(values, "ShowReadout").GetAsInt() != 0);
     form.showTrail->setChecked(vtkSMPropertyHelper(values, "ShowTrail").GetAsInt() != 0);
     form.showHand->setChecked(vtkSMPropertyHelper(values, "ShowHand").GetAsInt() != 0);
-    const QSignalBlocker size(form.handSize);
-    form.handSize->setValue(100.0 * vtkSMPropertyHelper(values, "HandSize").GetAsDouble());
+    showValue(form.handSize, 100.0 * vtkSMPropertyHelper(values, "HandSize").GetAsDouble());
   }
   this->showRecorder();
 }

@@ -61,7 +61,7 @@ def show(hand):
 """
 )
 
-# How many pixels have the colour of landmarks' balls.
+# Its value of the stiffness, and how many pixels have the colour of landmarks' balls.
 VALUES = window_scene.scene("""
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
@@ -77,6 +77,7 @@ def ball_pixels():
 
 
 def show(hand):
+    print("STIFFNESS", hand.Stiffness)
     if hand.NumberOfLandmarks:
         print("BALLS", ball_pixels())
     print(f"STATE {hand.State} | {hand.ForceMagnitude:.3f} | {hand.NumberOfLandmarks} | False | [] | 0")
@@ -346,6 +347,57 @@ def touch_what_is_applied_again(desktop, program):
     hand.wait(lambda state, *_: state.startswith("Engaged"), "Touch of what is applied again")
 
 
+def type_stiffness(desktop, program, value, *keys):
+    """Clicks into the panel's box, types a value and keys, and goes over the contour."""
+    program.move(0.851, 0.481)
+    desktop.xdo("click", "1")
+    for key in ("ctrl+a", *value, *keys):
+        program.key(key)
+        time.sleep(0.1)
+    program.move(0.46, 0.70)
+    program.drag(0.47, 0.71)
+
+
+def press_after_other_widgets(desktop, program):
+    """The space bar presses under the mouse after a value, a button and a name had the keyboard; a name has its own."""
+    def press(force, what):
+        time.sleep(0.3)
+        desktop.xdo("keydown", "space")
+        hand.wait(lambda state, now, *_: state.startswith("Engaged, touching") and abs(now - force) < 0.1, what)
+        desktop.xdo("keyup", "space")
+        hand.wait(lambda state, now, *_: state == "Engaged, in free space", f"letting go {what}")
+
+    hand = Hand(program)
+    program.says("READY", SECONDS)
+    program.focus()
+    program.key("ctrl+shift+t")
+    hand.wait(lambda state, *_: state.startswith("Engaged"), "Touch to engage")
+    # What it presses by is 3 mm.
+    type_stiffness(desktop, program, "742", "Return")
+    press(2.226, "after a value and Return")
+    type_stiffness(desktop, program, "613")
+    press(1.839, "while a value is typed")
+
+    program.move(0.672, 0.785)  # the button Fit
+    desktop.xdo("click", "1")
+    program.move(0.46, 0.70)
+    program.drag(0.47, 0.71)
+    press(1.839, "while a button has the keyboard")
+
+    # A name is typed with its spaces wherever the mouse is.
+    program.move(0.07, 0.286)
+    desktop.xdo("click", "1")
+    time.sleep(0.5)
+    program.key("F2")
+    program.move(0.46, 0.70)
+    program.drag(0.47, 0.71)
+    desktop.type("My Bone")
+    program.key("Return")
+    program.drag(0.48, 0.71)
+    press(1.839, "after a name")
+    assert "Engaged, touching My Bone" in program.output(), program.output()
+
+
 def see_landmarks(desktop, program):
     """A landmark has a ball in the picture, of the size that it has in the viewer."""
     hand = Hand(program)
@@ -381,6 +433,7 @@ def main():
     real_window.skip_where_it_cannot_run()
     run(SCENE, touch_a_contour)
     run(EMPTY, touch_what_is_applied_again)
+    run(VALUES, press_after_other_widgets)
     run(VALUES, see_landmarks)
 
 
