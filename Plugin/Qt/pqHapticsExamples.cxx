@@ -134,7 +134,11 @@ void pqHapticsExamples::add(
           text, "An example needs a render view. Click into one, or make one.");
         return;
       }
+      this->Manager->setEngaged(
+        false); // the device reaches for the example, not for what was there
       SCOPED_UNDO_SET("Example: " + text);
+      vtkNew<vtkSMParaViewPipelineControllerWithRendering> controller;
+      controller->HideAll(activeView()); // which may lie around it
       (this->*make)();
     });
 }

@@ -2,8 +2,9 @@
  * @class   pqHapticsExamples
  * @brief   The menu Haptics > Examples: small scenes to touch, made in the active view.
  *
- * Each adds its sources to the session, as a user would make them, and looks at them; what can be
- * touched is touched then. One undo takes an example back. GUI thread.
+ * Each adds its sources to the session, as a user would make them, hides in the view what it showed
+ * until then, and looks at them; what can be touched is touched then. One undo takes an example
+ * back, and shows again what it hid. GUI thread.
  *
  * @sa pqHapticsActions
  */

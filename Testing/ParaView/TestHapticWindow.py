@@ -417,6 +417,36 @@ def see_landmarks(desktop, program):
     real_window.wait_for(lambda: hand.says("BALLS") > 20, SECONDS, "the landmark's ball")
 
 
+def touch_one_example_after_another(desktop, program):
+    """Each is seen alone, and touched; undo brings back what the view showed before."""
+    def choose(number):
+        for key in ("alt+h", "Left", "Up", "Right", *["Down"] * number, "Return"):
+            program.key(key)
+            time.sleep(0.5)
+
+    def press(name):
+        program.move(0.46, 0.40)
+        program.drag(0.46, 0.55)
+        desktop.xdo("keydown", "space")
+        hand.wait(lambda state, *_: state == f"Engaged, touching {name}", f"contact with {name}")
+        desktop.xdo("keyup", "space")
+
+    hand = Hand(program)
+    program.says("READY", SECONDS)
+    program.focus()
+    choose(0)
+    hand.wait_shown("Contour1")
+    hand.wait(lambda state, *_: state.startswith("Engaged"), "the first example to be touched")
+    choose(1)
+    hand.wait_shown("Elevation1")
+    press("Elevation1")
+    choose(2)
+    hand.wait_shown("GodObjectFilter1")
+    press("GodObjectFilter1")
+    program.key("ctrl+z")
+    hand.wait_shown("Elevation1")
+
+
 def run(scene, test):
     with window_scene.home(scene) as (_, script), real_window.Desktop() as desktop:
         program = desktop.start([PARAVIEW, "--dr", f"--plugin-search-paths={os.path.dirname(PLUGIN)}",
@@ -435,6 +465,7 @@ def main():
     run(EMPTY, touch_what_is_applied_again)
     run(VALUES, press_after_other_widgets)
     run(VALUES, see_landmarks)
+    run(EMPTY, touch_one_example_after_another)
 
 
 main()
