@@ -1,6 +1,7 @@
 #include "haptics/Scene/HapticProbeFiller.h"
 
 #include "haptics/Filters/DataPoints.h"
+#include "haptics/Scene/FieldValues.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -8,6 +9,7 @@
 #include "vtkIdList.h"
 #include "vtkMath.h"
 #include "vtkPointData.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
@@ -153,4 +155,52 @@ void vtkHapticProbeFiller::SetContact(vtkHapticProbe* probe, const haptics::Tick
   probe->CellValues->CopyAllocate(prepared->GetCellData(), 1);
   probe->CellValues->CopyData(prepared->GetCellData(), constraint.Triangle, 0);
   probe->CellValues->RemoveArray("OriginalCellId");
+}
+
+void vtkHapticProbeFiller::Save(vtkHapticProbe* probe, vtkPolyData* record)
+{
+  record->Initialize();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  const vtkIdType point = points->InsertNextPoint(probe->Position);
+  vtkNew<vtkCellArray> verts;
+  verts->InsertNextCell(1, &point);
+  record->SetPoints(points);
+  record->SetVerts(verts);
+  record->GetPointData()->ShallowCopy(probe->PointValues);
+  record->GetCellData()->ShallowCopy(probe->CellValues);
+  haptics::FieldValues values(record->GetFieldData());
+  values.Set("SurfaceName", probe->SurfaceName);
+  values.Set("Cell", &probe->Cell, 1);
+  values.Set("PointIds", probe->PointIds, 3);
+  values.Set("Weights", probe->Weights, 3);
+  values.Set("Normal", probe->Normal, 3);
+  values.Set("Force", probe->Force, 3);
+  values.Set("HapticInterfacePoint", probe->HapticInterfacePoint, 3);
+  values.Set("Penetration", &probe->Penetration, 1);
+  values.Set("Time", &probe->Time, 1);
+  const auto triangle = static_cast<vtkIdType>(probe->Where.Triangle);
+  values.Set("Triangle", &triangle, 1);
+  values.Set("TriangleWeights", probe->Where.Weights.data(), 3);
+}
+
+bool vtkHapticProbeFiller::Load(vtkPolyData* record, vtkHapticProbe* probe)
+{
+  const haptics::FieldValues values(record->GetFieldData());
+  const bool isWhole = record->GetNumberOfPoints() == 1 && record->GetNumberOfVerts() == 1 &&
+    values.Get("SurfaceName", probe->SurfaceName) && values.Get("Cell", &probe->Cell, 1) &&
+    values.Get("PointIds", probe->PointIds, 3) && values.Get("Weights", probe->Weights, 3) &&
+    values.Get("Normal", probe->Normal, 3) && values.Get("Force", probe->Force, 3) &&
+    values.Get("HapticInterfacePoint", probe->HapticInterfacePoint, 3) &&
+    values.Get("Penetration", &probe->Penetration, 1) && values.Get("Time", &probe->Time, 1) &&
+    values.Get("Triangle", &probe->Where.Triangle, 1) &&
+    values.Get("TriangleWeights", probe->Where.Weights.data(), 3);
+  if (isWhole)
+  {
+    record->GetPoint(0, probe->Position);
+    probe->PointValues->ShallowCopy(record->GetPointData());
+    probe->CellValues->ShallowCopy(record->GetCellData());
+    probe->Touching = true;
+  }
+  return isWhole;
 }

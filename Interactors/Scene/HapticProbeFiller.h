@@ -27,6 +27,15 @@ public:
   /// null, has the surface's triangles in the same order, with the arrays.
   static void SetContact(vtkHapticProbe* probe, const haptics::TickRecord& tick,
     const SurfaceCell& touched, vtkPolyData* prepared);
+
+  ///@{
+  /// A contact as polydata with one point, and a new probe from that, which belongs to no surface
+  /// of a scene yet; false where the polydata are none of Save().
+  static void Save(vtkHapticProbe* probe, vtkPolyData* record);
+  static bool Load(vtkPolyData* record, vtkHapticProbe* probe);
+  static void SetSurface(vtkHapticProbe* probe, int id) { probe->Surface = id; }
+  static std::string SurfaceName(vtkHapticProbe* probe) { return probe->SurfaceName; }
+  ///@}
 };
 
 #endif

@@ -3,7 +3,9 @@
 #include "haptics/Files/OutputFile.h"
 #include "haptics/Filters/LengthUnit.h"
 #include "haptics/Filters/TraceCSV.h"
+#include "haptics/Scene/FieldValues.h"
 #include "haptics/Scene/GeodesicPath.h"
+#include "haptics/Scene/HapticProbeFiller.h"
 #include "haptics/Scene/SurfaceSet.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -82,9 +84,18 @@ struct vtkHapticLandmarks::Landmark
 {
   vtkSmartPointer<vtkHapticProbe> Probe; // as it was dropped
   std::string Label;
+  std::string Name;              // of the surface
+  int Dropped = 0;               // how many were, with it
   vtkHapticProbe::Contact Where; // as it is now
   haptics::Vec3 Position{};      // world
   haptics::Vec3 Normal{};        // world, unit, on the side that was touched
+  /// The triangle that was touched, in a surface with so many of them, by which one that comes out
+  /// of a record finds its surface again.
+  struct
+  {
+    vtkIdType Triangles = 0;
+    haptics::Triangle Corners{};
+  } Touched{};
   /// A snapshot with other cells, which is not looked at twice.
   std::shared_ptr<const haptics::TriangleSurface> Refused;
   /// The way along the surface from the landmark before, as it was found last.
@@ -111,6 +122,33 @@ struct vtkHapticLandmarks::Landmark
     haptics::Vec3 normal;
     vtkMath::Cross(edges[0].data(), edges[1].data(), normal.data());
     return this->Where.Pose.VectorToWorld(normal);
+  }
+
+  /// Whether it was dropped on a surface like this.
+  bool IsOf(const haptics::HapticSurface& surface) const
+  {
+    const auto touched = surface.TouchableSurface();
+    const auto triangle = static_cast<std::size_t>(this->Where.Triangle);
+    const auto& cells = surface.OriginalCellIds();
+    return touched && surface.Name == this->Name && triangle < touched->Triangles().size() &&
+      static_cast<vtkIdType>(touched->Triangles().size()) == this->Touched.Triangles &&
+      touched->Triangles()[triangle] == this->Touched.Corners &&
+      (!cells || (triangle < cells->size() && (*cells)[triangle] == this->Probe->GetCell()));
+  }
+
+  /// Looks for its surface, where it came out of a record. Whether it has one.
+  bool FindSurface(const haptics::SurfaceSet& surfaces)
+  {
+    for (const auto& surface : surfaces.All())
+    {
+      if (!this->Where.Surface && this->IsOf(*surface))
+      {
+        vtkHapticProbeFiller::SetSurface(this->Probe, surface->Id());
+        this->Where.Surface = surface->TouchableSurface();
+        this->Where.Pose = surface->Pose();
+      }
+    }
+    return this->Where.Surface != nullptr;
   }
 
   /// Whether it is elsewhere now.
@@ -175,9 +213,70 @@ int vtkHapticLandmarks::Drop(vtkHapticProbe* probe, const char* label)
   ++this->Dropped;
   const double* const position = probe->GetPosition();
   const double* const normal = probe->GetNormal();
-  this->Landmarks.push_back({ probe, label ? label : std::to_string(this->Dropped),
-    probe->GetContact(), { position[0], position[1], position[2] },
-    { normal[0], normal[1], normal[2] }, nullptr, {} });
+  Landmark landmark;
+  landmark.Probe = probe;
+  landmark.Label = label ? label : std::to_string(this->Dropped);
+  landmark.Dropped = this->Dropped;
+  landmark.Name = vtkHapticProbeFiller::SurfaceName(probe);
+  landmark.Where = probe->GetContact();
+  std::copy_n(position, 3, landmark.Position.begin());
+  std::copy_n(normal, 3, landmark.Normal.begin());
+  if (landmark.Where.Surface)
+  {
+    const auto& triangles = landmark.Where.Surface->Triangles();
+    landmark.Touched.Triangles = static_cast<vtkIdType>(triangles.size());
+    landmark.Touched.Corners = triangles[static_cast<std::size_t>(landmark.Where.Triangle)];
+  }
+  this->Landmarks.push_back(landmark);
+  this->Modified();
+  return this->GetNumberOfLandmarks() - 1;
+}
+
+void vtkHapticLandmarks::GetRecord(int number, vtkPolyData* record)
+{
+  record->Initialize();
+  if (!this->Has(number))
+  {
+    return;
+  }
+  const Landmark& landmark = this->Landmarks[static_cast<std::size_t>(number)];
+  vtkHapticProbeFiller::Save(landmark.Probe, record);
+  haptics::FieldValues values(record->GetFieldData());
+  values.Set("SurfaceName", landmark.Name);
+  values.Set("Label", landmark.Label);
+  const vtkIdType dropped = landmark.Dropped;
+  values.Set("Dropped", &dropped, 1);
+  values.Set("PositionNow", landmark.Position.data(), 3);
+  values.Set("NormalNow", landmark.Normal.data(), 3);
+  values.Set("NumberOfTriangles", &landmark.Touched.Triangles, 1);
+  vtkIdType corners[3];
+  std::copy(landmark.Touched.Corners.begin(), landmark.Touched.Corners.end(), corners);
+  values.Set("Corners", corners, 3);
+}
+
+int vtkHapticLandmarks::Add(vtkPolyData* record)
+{
+  Landmark landmark;
+  landmark.Probe = vtkSmartPointer<vtkHapticProbe>::New();
+  bool isWhole = record && vtkHapticProbeFiller::Load(record, landmark.Probe);
+  if (isWhole)
+  {
+    const haptics::FieldValues values(record->GetFieldData());
+    isWhole = values.Get("Label", landmark.Label) && values.Get("Dropped", &landmark.Dropped, 1) &&
+      values.Get("SurfaceName", landmark.Name) &&
+      values.Get("PositionNow", landmark.Position.data(), 3) &&
+      values.Get("NormalNow", landmark.Normal.data(), 3) &&
+      values.Get("NumberOfTriangles", &landmark.Touched.Triangles, 1) &&
+      values.Get("Corners", landmark.Touched.Corners.data(), 3);
+  }
+  if (!isWhole)
+  {
+    vtkErrorMacro("The polydata are no landmark's. Give what GetRecord() makes.");
+    return -1;
+  }
+  landmark.Where = landmark.Probe->GetContact();
+  this->Dropped = std::max(this->Dropped, landmark.Dropped);
+  this->Landmarks.push_back(landmark);
   this->Modified();
   return this->GetNumberOfLandmarks() - 1;
 }
@@ -187,11 +286,13 @@ void vtkHapticLandmarks::Follow(const haptics::SurfaceSet& surfaces)
   bool moved = false;
   for (Landmark& landmark : this->Landmarks)
   {
+    const bool isFound = !landmark.Where.Surface && landmark.FindSurface(surfaces);
     const haptics::HapticSurface* const surface = surfaces.Find(landmark.Probe->GetSurface());
     const auto touched = surface ? surface->TouchableSurface() : nullptr;
     if (touched && landmark.Where.Surface)
     {
-      moved = landmark.Follow(touched, surface->Pose()) || moved;
+      const bool isRenamed = std::exchange(landmark.Name, surface->Name) != surface->Name;
+      moved = landmark.Follow(touched, surface->Pose()) || isFound || isRenamed || moved;
     }
   }
   if (moved)
@@ -338,8 +439,8 @@ std::string vtkHapticLandmarks::GetText(int number)
 
 bool vtkHapticLandmarks::AreOnOneSurface(int first, int second) const
 {
-  return this->Landmarks[static_cast<std::size_t>(first)].Where.Surface ==
-    this->Landmarks[static_cast<std::size_t>(second)].Where.Surface;
+  const auto& surface = this->Landmarks[static_cast<std::size_t>(first)].Where.Surface;
+  return surface && surface == this->Landmarks[static_cast<std::size_t>(second)].Where.Surface;
 }
 
 double vtkHapticLandmarks::GetGeodesicDistance(int first, int second, vtkPolyData* path)

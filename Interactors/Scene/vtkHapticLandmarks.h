@@ -47,6 +47,18 @@ public:
   bool Remove(int number);
   void RemoveAll();
 
+  ///@{
+  /**
+   * A landmark as polydata with one point, to be kept in a file, with all that GetOutput() and
+   * WriteCSV() have of it; an error where there is no such number. And such a one added at the end,
+   * with its label, which returns its number; -1 and an error for other polydata. It lies where it
+   * was, and belongs to no surface (-1), until the scene has a surface of the name of that on which
+   * it was dropped, with the triangle that was touched: then it stays on that.
+   */
+  void GetRecord(int number, vtkPolyData* record);
+  int Add(vtkPolyData* record);
+  ///@}
+
   int GetNumberOfLandmarks();
   /** What was touched, then; null where there is no such number. Not to be changed. */
   vtkHapticProbe* GetLandmark(int number);

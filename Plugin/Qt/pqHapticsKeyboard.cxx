@@ -92,8 +92,8 @@ bool pqHapticsKeyboard::eventFilter(QObject* receiver, QEvent* event)
   {
     const auto* key = static_cast<QKeyEvent*>(event);
     const bool isReturn = key->key() == Qt::Key_Return || key->key() == Qt::Key_Enter;
-    if (key->key() == Qt::Key_Space && key->modifiers() == Qt::NoModifier &&
-      !key->isAutoRepeat() && this->isForHand())
+    if (key->key() == Qt::Key_Space && key->modifiers() == Qt::NoModifier && !key->isAutoRepeat() &&
+      this->isForHand())
     {
       this->Manager->focusView();
     }

@@ -26,6 +26,7 @@
 #include "vtkPVDataInformation.h"
 #include "vtkPVHapticPicture.h"
 #include "vtkPVHapticReadings.h"
+#include "vtkPVHapticRecords.h"
 #include "vtkPVHapticScene.h"
 #include "vtkPVRenderView.h"
 #include "vtkSMHapticSceneProxy.h"
@@ -46,6 +47,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace
@@ -129,6 +131,17 @@ pqHapticsManager::pqHapticsManager(QObject* parent)
   this->connect(pqApplicationCore::instance()->getServerManagerModel(),
     &pqServerManagerModel::modifiedStateChanged, this, &pqHapticsManager::choiceChanged);
   this->connect(this, &pqHapticsManager::engagedChanged, this, &pqHapticsManager::choiceChanged);
+
+  if (pqUndoStack* const stack = pqApplicationCore::instance()->getUndoStack())
+  {
+    const auto follow = [this]
+    {
+      this->Landmarks = this->numberOfLandmarks(); // undo has changed them itself
+      this->poll();
+    };
+    this->connect(stack, &pqUndoStack::undone, this, follow);
+    this->connect(stack, &pqUndoStack::redone, this, follow);
+  }
 
   // A state file or a script may bring a scene, or take it away.
   pqServerManagerObserver* observer = pqApplicationCore::instance()->getServerManagerObserver();
@@ -279,6 +292,7 @@ void pqHapticsManager::adoptScene(vtkSMProxy* proxy)
   if (proxy != this->Scene)
   {
     this->Scene = proxy;
+    this->Landmarks = this->numberOfLandmarks();
     emit this->sceneChanged();
     this->noticeState();
   }
@@ -672,11 +686,29 @@ bool pqHapticsManager::look()
     }
     this->followSurfaces();
     isOutdated = scene->Update();
+    this->keepLandmarks();
   }
   this->noticeState();
   this->proveAsked();
   emit this->updated();
   return isOutdated;
+}
+
+int pqHapticsManager::numberOfLandmarks() const
+{
+  vtkPVHapticScene* scene = this->clientScene();
+  return scene ? scene->GetRecords()->GetNumberOfLandmarks() : 0;
+}
+
+/// Whether dropped by a key or by the device: what has come or gone, undo takes back.
+void pqHapticsManager::keepLandmarks()
+{
+  const int before = std::exchange(this->Landmarks, this->numberOfLandmarks());
+  if (this->Landmarks != before)
+  {
+    SCOPED_UNDO_SET("Haptic Landmarks");
+    this->Scene->UpdateVTKObjects(); // the proxy asks for them
+  }
 }
 
 /// Whether anything can change by itself, so that the scene is to be looked at again.

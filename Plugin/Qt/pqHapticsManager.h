@@ -138,6 +138,8 @@ private:
   bool hasWork() const;
   void noticeState();
   void proveAsked();
+  int numberOfLandmarks() const;
+  void keepLandmarks();
   bool show(pqOutputPort* port, pqView* view, QString& problem);
   void bringSurfaces(bool isDrawn);
   void draw();
@@ -153,7 +155,8 @@ private:
   QElapsedTimer Drawn;    // since the last picture
   qint64 DrawingTime = 0; // that it took [ms]
   bool Engaged = false;
-  QString Asked; // title of what the user asked for last, until it is seen to hold
+  int Landmarks = 0; // that undo knows of
+  QString Asked;     // title of what the user asked for last, until it is seen to hold
 };
 
 #endif

@@ -4,11 +4,36 @@
 #include "vtkHapticLandmarks.h"
 #include "vtkHapticScene.h"
 #include "vtkHapticServo.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkXMLPolyDataReader.h"
+#include "vtkXMLPolyDataWriter.h"
 
-#include <string>
+#include <algorithm>
+#include <numeric>
 
 vtkStandardNewMacro(vtkPVHapticRecords);
+
+namespace
+{
+const std::string EndOfText = "</VTKFile>";
+
+/// Of several texts behind each other.
+std::vector<std::string> Split(const std::string& contents)
+{
+  std::vector<std::string> texts;
+  std::size_t begin = 0;
+  for (std::size_t end = contents.find(EndOfText); end != std::string::npos;
+       end = contents.find(EndOfText, begin))
+  {
+    end += EndOfText.size();
+    texts.push_back(contents.substr(begin, end - begin) + "\n");
+    begin = std::min(contents.find('<', end), contents.size());
+  }
+  return texts;
+}
+}
 
 vtkPVHapticRecords::vtkPVHapticRecords() = default;
 vtkPVHapticRecords::~vtkPVHapticRecords() = default;
@@ -66,6 +91,63 @@ void vtkPVHapticRecords::ClearLandmarks()
   if (this->Scene)
   {
     this->Scene->GetLandmarks()->RemoveAll();
+  }
+}
+
+const std::vector<std::string>& vtkPVHapticRecords::Texts()
+{
+  vtkHapticLandmarks* const landmarks = this->Scene->GetLandmarks();
+  if (this->TextsTime != landmarks->GetMTime())
+  {
+    this->TextsTime = landmarks->GetMTime();
+    this->LandmarkTexts.clear();
+    vtkNew<vtkPolyData> record;
+    for (int i = 0; i < landmarks->GetNumberOfLandmarks(); ++i)
+    {
+      landmarks->GetRecord(i, record);
+      vtkNew<vtkXMLPolyDataWriter> writer;
+      writer->SetInputData(record);
+      writer->SetDataModeToBinary(); // base64: no byte that a property or XML could not hold
+      writer->WriteToOutputStringOn();
+      writer->Write();
+      this->LandmarkTexts.push_back(Split(writer->GetOutputString()).front());
+    }
+  }
+  return this->LandmarkTexts;
+}
+
+std::string vtkPVHapticRecords::GetLandmarkContents()
+{
+  return this->Scene ? std::accumulate(this->Texts().begin(), this->Texts().end(), std::string())
+                     : std::string();
+}
+
+void vtkPVHapticRecords::SetLandmarkContents(const char* contents)
+{
+  if (!this->Scene)
+  {
+    return;
+  }
+  vtkHapticLandmarks* const landmarks = this->Scene->GetLandmarks();
+  const std::vector<std::string> wanted = Split(contents ? contents : "");
+  const std::vector<std::string> there = this->Texts();
+  const std::size_t most = std::min(wanted.size(), there.size());
+  std::size_t kept = 0;
+  while (kept < most && wanted[kept] == there[kept])
+  {
+    ++kept;
+  }
+  for (std::size_t i = kept; i < there.size(); ++i)
+  {
+    landmarks->Undo();
+  }
+  for (std::size_t i = kept; i < wanted.size(); ++i)
+  {
+    vtkNew<vtkXMLPolyDataReader> reader;
+    reader->ReadFromInputStringOn();
+    reader->SetInputString(wanted[i]);
+    reader->Update();
+    landmarks->Add(reader->GetOutput());
   }
 }
 

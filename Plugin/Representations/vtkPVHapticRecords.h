@@ -11,6 +11,9 @@
 
 #include "vtkPVHapticPart.h"
 
+#include <string>
+#include <vector>
+
 class VTKHAPTICSREPRESENTATIONS_EXPORT vtkPVHapticRecords : public vtkPVHapticPart
 {
 public:
@@ -35,6 +38,14 @@ public:
   void ClearLandmarks();
   int GetNumberOfLandmarks();
   ///@}
+  ///@{
+  /**
+   * All landmarks as a text, for state files and undo. One that is set takes their place, but those
+   * at its beginning that are there already stay. An error for what is no landmark in it.
+   */
+  void SetLandmarkContents(const char* contents);
+  std::string GetLandmarkContents();
+  ///@}
   /**
    * The distance to the one before that is written next to each, a
    * vtkHapticLandmarks::DistanceType. Default straight.
@@ -48,6 +59,11 @@ protected:
 private:
   vtkPVHapticRecords(const vtkPVHapticRecords&) = delete;
   void operator=(const vtkPVHapticRecords&) = delete;
+
+  const std::vector<std::string>& Texts();
+
+  std::vector<std::string> LandmarkTexts; // one each
+  vtkMTimeType TextsTime = 0;             // when the landmarks were as there
 };
 
 #endif

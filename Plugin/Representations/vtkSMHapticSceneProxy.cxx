@@ -6,6 +6,7 @@
 #include "vtkHapticSurfaceRepresentation.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVHapticPicture.h"
+#include "vtkPVHapticRecords.h"
 #include "vtkPVHapticScene.h"
 #include "vtkPVHapticWorkspace.h"
 #include "vtkPVSession.h"
@@ -33,6 +34,8 @@ namespace
 /// The properties that vtkHapticSettings has too.
 constexpr const char* SettingNames[] = { "Device", "Stiffness", "MaximumForce", "Side", "ShowForce",
   "ShowReadout", "ShowTrail", "ShowHand", "HandSize" };
+
+constexpr const char* Landmarks = "LandmarkContents";
 }
 
 vtkSMHapticSceneProxy::vtkSMHapticSceneProxy()
@@ -171,7 +174,10 @@ void vtkSMHapticSceneProxy::OnConnectionLost()
 void vtkSMHapticSceneProxy::OnPropertyModified(vtkObject*, unsigned long, void* name)
 {
   vtkSMProperty* property = name ? this->GetProperty(static_cast<const char*>(name)) : nullptr;
-  if (property && !property->GetInformationOnly() && vtkSMTrace::GetActiveTracer())
+  // A trace would have all landmarks again with each.
+  const bool isTraced =
+    property && !property->GetInformationOnly() && property != this->GetProperty(Landmarks);
+  if (isTraced && vtkSMTrace::GetActiveTracer())
   {
     this->Untraced.insert(static_cast<const char*>(name));
   }
@@ -191,6 +197,7 @@ void vtkSMHapticSceneProxy::UpdateVTKObjects()
   this->Superclass::UpdateVTKObjects();
   this->ShowHand();
   this->SyncWorkspace(); // else setting again what another device or view has undone does nothing
+  this->SyncLandmarks();
 }
 
 void vtkSMHapticSceneProxy::TakeSettings(vtkSMProxy* settings)
@@ -329,6 +336,7 @@ void vtkSMHapticSceneProxy::OnRegistered(vtkObject*, unsigned long, void* inform
 void vtkSMHapticSceneProxy::UpdatePropertyInformation()
 {
   this->SyncWorkspace();
+  this->SyncLandmarks();
   this->Superclass::UpdatePropertyInformation();
 }
 
@@ -344,10 +352,22 @@ void vtkSMHapticSceneProxy::SyncWorkspace()
   }
 }
 
+/// They are dropped by commands, and by the device's button.
+void vtkSMHapticSceneProxy::SyncLandmarks()
+{
+  if (vtkPVHapticScene* scene = this->GetScene())
+  {
+    const std::string contents = scene->GetRecords()->GetLandmarkContents();
+    vtkSMPropertyHelper(this, Landmarks).Set(contents.c_str());
+    this->UpdateProperty(Landmarks); // they are there already
+  }
+}
+
 vtkPVXMLElement* vtkSMHapticSceneProxy::SaveXMLState(
   vtkPVXMLElement* root, vtkSMPropertyIterator* iterator)
 {
   this->SyncWorkspace();
+  this->SyncLandmarks();
   vtkPVXMLElement* saved = this->Superclass::SaveXMLState(root, iterator);
   // What the hand does just now is no part of a state: above all nothing engages by being loaded.
   for (unsigned int i = saved ? saved->GetNumberOfNestedElements() : 0; i > 0; --i)

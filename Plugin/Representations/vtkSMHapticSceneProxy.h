@@ -3,10 +3,11 @@
  * @brief   The proxy of a vtkPVHapticScene: keeps up with what is deleted, saved and traced
  *
  * A view or representation that is unregistered leaves the scene at once, as does everything when
- * the server is lost; state files get the workspace transform that is in force; surfaces are named
- * as the pipeline browser names their sources; the hand is shown in each view that shows a surface
- * in it, with what the servo has done until then; and while ParaView traces, each change of a
- * property becomes a line of Python, the first with all that counts.
+ * the server is lost; state files get the workspace transform that is in force and the landmarks
+ * that there are, as undo does where UpdateVTKObjects() is called after a change; surfaces are
+ * named as the pipeline browser names their sources; the hand is shown in each view that shows a
+ * surface in it, with what the servo has done until then; and while ParaView traces, each change of
+ * a property becomes a line of Python, the first with all that counts.
  *
  * GUI thread.
  *
@@ -64,6 +65,7 @@ private:
   void ShowHand();
   void OnPropertyModified(vtkObject* caller, unsigned long event, void* name);
   void SyncWorkspace();
+  void SyncLandmarks();
   void NameSurfaces(vtkSMProxy* source, const char* name);
   void TraceFromHereOn();
   void Trace();

@@ -5,6 +5,7 @@ ParaView finds the package vtkhaptics by its plugin alone, as where that was loa
 """
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -16,13 +17,29 @@ import window_scene
 
 PLUGIN, PARAVIEW, PVPYTHON, HAS_HELP = sys.argv[1:]
 SECONDS = 60.0
+REDO = "ctrl+y"  # Qt's on a plain X desktop
 STIFFNESS = 321.0
 
+# Labels and places of the landmarks, and the source that each was dropped on.
+MARKED = """
+def marked(hand):
+    marks = hand.vtk.GetLandmarks()
+    points = hand.landmarks().GetPoints()
+    return [(marks.GetLabel(i), marks.GetLandmark(i).GetSurfaceName(), *(round(c, 6) for c in points.GetPoint(i)),
+             round(marks.GetLandmark(i).GetValue("RTData"), 3)) for i in range(marks.GetNumberOfLandmarks())]
+"""
+
 SCENE = window_scene.scene(
-    """
+    MARKED + """
+
 def show(hand):
     print("STATE", hand.State, "|", hand.RecordingFileName)
     print("PLAYS", hand.Device)
+    print("LANDMARKS", hand.NumberOfLandmarks, "|", round(hand.ForceMagnitude, 2))
+    if hand.NumberOfLandmarks == 2:
+        import vtkhaptics.paraview
+
+        print("MARKED", marked(vtkhaptics.paraview.scene()))
 """,
     before='settings = servermanager.ProxyManager().GetProxy("settings", "HapticSettings")\n'
     f"settings.Stiffness = {STIFFNESS}",
@@ -32,6 +49,7 @@ def show(hand):
 CHECK = f"""
 import sys
 import vtkhaptics.paraview as haptics
+{MARKED}
 
 kind, file = sys.argv[1:]
 if kind == "pvsm":
@@ -57,12 +75,14 @@ hand.Device = "simulated"
 hand.WorkspaceTransform = [0.0] * 16
 hand.RecordTrace = 1
 hand.step(1500)
+print("MARKED", marked(hand))
+print("ON", hand.landmarks().GetPointData().GetArray("Surface").GetRange() if hand.NumberOfLandmarks else None)
 force = hand.trace().GetPointData().GetArray("Force")
 print("TOUCHED", max(abs(component) for component in force.GetRange(-1)) > 1.0)
 """
 
 
-def restored(kind, file, folder):
+def restored(kind, file, folder, marked):
     script = os.path.join(folder, "check.py")
     with open(script, "w") as written:
         written.write(CHECK)
@@ -73,6 +93,8 @@ def restored(kind, file, folder):
     assert ended.returncode == 0, (kind, ended.stdout)
     expected = f"RESTORED {STIFFNESS} mouse ['Bone'] True"
     assert expected in ended.stdout and "TOUCHED True" in ended.stdout, (kind, ended.stdout)
+    if marked:
+        assert f"MARKED {marked}\nON (0.0, 0.0)" in ended.stdout, (kind, marked, ended.stdout)
 
 
 class User:
@@ -160,6 +182,32 @@ def save_trace(user, trace):
     user.main()
 
 
+def drop_landmarks(user):
+    """Two, the last of which undo takes back, and redo brings again; what ParaView says of both."""
+    def wait(number, what):
+        real_window.wait_for(
+            lambda: user.program.output().rpartition("LANDMARKS ")[2].startswith(f"{number} |"), SECONDS, what)
+
+    user.program.move(0.46, 0.70)
+    user.program.drag(0.47, 0.71)
+    user.desktop.xdo("keydown", "space")
+    for number, place in ((1, 0.50), (2, 0.44)):
+        real_window.wait_for(
+            lambda: float(re.findall(r"^LANDMARKS .* \| (.*)$", user.program.output(), re.M)[-1]) > 0.5,
+            SECONDS, "contact")
+        user.program.key("l")
+        wait(number, f"{number} landmarks")
+        user.program.drag(place, 0.71)
+    user.desktop.xdo("keyup", "space")
+    marked = re.findall(r"^MARKED (.*)$", user.program.output(), re.M)[-1]
+    user.program.key("ctrl+z")
+    wait(1, "undo to take a landmark back")
+    user.program.key(REDO)
+    wait(2, "redo to bring it again")
+    assert re.findall(r"^MARKED (.*)$", user.program.output(), re.M)[-1] == marked, (marked, user.program.output())
+    return marked
+
+
 def save(desktop, program, folder):
     user = User(desktop, program)
     state, python, trace = (os.path.join(folder, name) for name in ("state.pvsm", "state.py", "trace.py"))
@@ -168,6 +216,7 @@ def save(desktop, program, folder):
     program.key("ctrl+shift+t")
     program.says("STATE Engaged", SECONDS)
 
+    marked = drop_landmarks(user)
     for file in (python, state):
         user.menu("alt+f", "s")
         user.window("^Save State File")
@@ -218,9 +267,10 @@ def save(desktop, program, folder):
     user.main()
     user.toggle("Engaged")
     program.says(f"PLAYS {recording}", SECONDS)
+    return marked
 
 
-def load_and_touch(desktop, program, folder):
+def load_and_touch(desktop, program, folder, marked):
     """The Python state in another ParaView, where the hand is engaged; and the tutorial in Help."""
     user = User(desktop, program)
     python = os.path.join(folder, "loaded.py")
@@ -230,12 +280,14 @@ def load_and_touch(desktop, program, folder):
             window_scene.PRINT +
             "\nprint('RESTORED', hand.Stiffness, hand.Device, hand.Surfaces[0].Input == FindSource('Bone'),"
             " hand.EngagedInfo)\n"
+            + MARKED + "\nprint('MARKED', marked(hand))\n"
             "hand.View.GetRenderWindow().AddObserver('EndEvent', lambda *_: print('STATE', hand.State))\n"
         )
     user.main()
     user.menu("alt+f", "l")
     user.load_script(python)
     program.says(f"RESTORED {STIFFNESS} mouse True 0", SECONDS)
+    program.says(f"MARKED {marked}", SECONDS)
     user.main()
     user.toggle("Engaged")
     if HAS_HELP == "1":
@@ -249,10 +301,11 @@ def main():
     command = [PARAVIEW, "--dr", f"--plugin-search-paths={os.path.dirname(PLUGIN)}",
                "--plugins=Haptics"]
     with window_scene.home(SCENE) as (folder, script), real_window.Desktop() as desktop:
+        marked = None
         for use, more in ((save, [f"--script={script}"]), (load_and_touch, [])):
             program = desktop.start(command + more, "ParaView", SECONDS)
             try:
-                use(desktop, program, folder)
+                marked = use(desktop, program, folder, *[marked] * (use is load_and_touch)) or marked
             except AssertionError:
                 print(program.output())
                 raise
@@ -260,10 +313,10 @@ def main():
             program.process.terminate()
             program.process.wait()
         os.environ.update(PYTHONPATH=packages, DISPLAY=desktop.environment["DISPLAY"])
-        restored("python", os.path.join(folder, "state.py"), folder)
-        restored("pvsm", os.path.join(folder, "state.pvsm"), folder)
+        restored("python", os.path.join(folder, "state.py"), folder, marked)
+        restored("pvsm", os.path.join(folder, "state.pvsm"), folder, marked)
         if os.path.exists(os.path.join(folder, "trace.py")):
-            restored("trace", os.path.join(folder, "trace.py"), folder)
+            restored("trace", os.path.join(folder, "trace.py"), folder, None)
 
 
 main()

@@ -234,6 +234,10 @@ TEST(Remedies, OfGripsAndLandmarks)
   ExpectRemedy(
     marks, "counted from 0", [&] { marks->GetLabel(0), marks->SetLabel(number, "a"); },
     [&] { number = 0; });
+  vtkNew<vtkPolyData> record;
+  ExpectRemedy(
+    marks, "Give what GetRecord() makes", [&] { marks->Add(record); },
+    [&] { marks->GetRecord(0, record); });
   hand.MoveTo(0.01);
   ExpectRemedy(
     grip, "Touch a surface first", [&] { grip->Take(); }, press);

@@ -73,8 +73,8 @@ class Scene:
         prop = self.proxy.SMProxy.GetProperty(name)
         if not prop:
             raise AttributeError(f"a haptic scene has no {name}")
-        if name == "WorkspaceTransform":
-            self.proxy.SMProxy.UpdatePropertyInformation()  # fitting and the clutch change it
+        if name in ("WorkspaceTransform", "LandmarkContents"):
+            self.proxy.SMProxy.UpdatePropertyInformation()  # fitting, the clutch and touch change it
         elif prop.GetInformationOnly():
             self.proxy.SMProxy.UpdatePropertyInformation(prop)
         return getattr(self.proxy, name)
