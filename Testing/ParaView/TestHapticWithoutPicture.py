@@ -3,7 +3,10 @@
 Alone, and in this order: ParaView traces once a process.
 """
 
+import contextlib
+import io
 import os
+import runpy
 import unittest
 
 DISPLAY = os.environ.pop("DISPLAY", None)  # a render would end this process, where ParaView draws by X
@@ -11,6 +14,8 @@ DISPLAY = os.environ.pop("DISPLAY", None)  # a render would end this process, wh
 import numpy as np
 from HapticSceneTesting import haptics, main, trace_arrays
 from paraview import simple, smstate, smtrace
+
+from vtkhaptics.display import needs_display
 
 
 def stroke(hand):
@@ -77,6 +82,14 @@ class TestHapticWithoutPicture(unittest.TestCase):
         self.hand.set(Surfaces=[], View=None, Stiffness=400.0, Side="Front", Device="mouse")
         exec(compile(script, "trace", "exec"), {})
         self.assert_felt_again(haptics.scene())
+
+    def test_5_the_example_says_that_it_draws_nothing(self):
+        simple.ResetSession()
+        said = io.StringIO()
+        with contextlib.redirect_stdout(said):
+            runpy.run_path(os.path.join(os.environ["HAPTICS_SOURCE_DIR"], "Plugin", "examples", "touch_contour.py"))
+        self.assertEqual("No picture is drawn" in said.getvalue(), needs_display(), said.getvalue())
+        self.assertIn("4 landmarks", said.getvalue())
 
 
 if __name__ == "__main__":
