@@ -397,6 +397,24 @@ def press_after_other_widgets(desktop, program):
     press(1.839, "after a name")
     assert "Engaged, touching My Bone" in program.output(), program.output()
 
+    # A material's value in the Properties panel, and Return: the keyboard is the hand's, wherever the mouse is.
+    program.move(0.10, 0.596)  # the search, which shows it
+    desktop.xdo("click", "1")
+    desktop.type("haptic prop")
+    time.sleep(1.0)
+    program.move(0.158, 0.841)  # its stiffness
+    desktop.xdo("click", "1")
+    for key in ("ctrl+a", *"400", "Return"):
+        program.key(key)
+        time.sleep(0.1)
+    time.sleep(0.5)
+    program.key("k")
+    hand.wait(lambda state, *_: state == "Engaged, clutched: nothing is touched", "the clutch by its key")
+    program.key("k")
+    program.move(0.46, 0.70)
+    program.drag(0.47, 0.71)
+    press(1.2, "with a value of the material")
+
 
 def see_landmarks(desktop, program):
     """A landmark has a ball in the picture, of the size that it has in the viewer."""
