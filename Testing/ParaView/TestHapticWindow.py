@@ -347,10 +347,24 @@ def touch_what_is_applied_again(desktop, program):
     hand.wait(lambda state, *_: state.startswith("Engaged"), "Touch of what is applied again")
 
 
+# Where Qt 5 and Qt 6 put what is clicked on: in widths and heights of ParaView's window.
+PLACES = {
+    "5": {"stiffness": (0.851, 0.481), "Fit": (0.672, 0.785), "contour": (0.07, 0.286), "search": (0.10, 0.596),
+          "material's stiffness": (0.158, 0.841)},
+    "6": {"stiffness": (0.833, 0.450), "Fit": (0.688, 0.728), "contour": (0.064, 0.276), "search": (0.137, 0.611),
+          "material's stiffness": (0.158, 0.841)},
+}
+
+
+def click(desktop, program, name):
+    version = desktop.xdo("getwindowname", program.window).split()[1]
+    program.move(*PLACES[version.partition(".")[0]][name])
+    desktop.xdo("click", "1")
+
+
 def type_stiffness(desktop, program, value, *keys):
     """Clicks into the panel's box, types a value and keys, and goes over the contour."""
-    program.move(0.851, 0.481)
-    desktop.xdo("click", "1")
+    click(desktop, program, "stiffness")
     for key in ("ctrl+a", *value, *keys):
         program.key(key)
         time.sleep(0.1)
@@ -378,15 +392,13 @@ def press_after_other_widgets(desktop, program):
     type_stiffness(desktop, program, "613")
     press(1.839, "while a value is typed")
 
-    program.move(0.672, 0.785)  # the button Fit
-    desktop.xdo("click", "1")
+    click(desktop, program, "Fit")
     program.move(0.46, 0.70)
     program.drag(0.47, 0.71)
     press(1.839, "while a button has the keyboard")
 
     # A name is typed with its spaces wherever the mouse is.
-    program.move(0.07, 0.286)
-    desktop.xdo("click", "1")
+    click(desktop, program, "contour")
     time.sleep(0.5)
     program.key("F2")
     program.move(0.46, 0.70)
@@ -398,12 +410,10 @@ def press_after_other_widgets(desktop, program):
     assert "Engaged, touching My Bone" in program.output(), program.output()
 
     # A material's value in the Properties panel, and Return: the keyboard is the hand's, wherever the mouse is.
-    program.move(0.10, 0.596)  # the search, which shows it
-    desktop.xdo("click", "1")
+    click(desktop, program, "search")  # which shows it
     desktop.type("haptic prop")
     time.sleep(1.0)
-    program.move(0.158, 0.841)  # its stiffness
-    desktop.xdo("click", "1")
+    click(desktop, program, "material's stiffness")
     for key in ("ctrl+a", *"400", "Return"):
         program.key(key)
         time.sleep(0.1)
