@@ -330,6 +330,22 @@ self.GetOutput().ShallowCopy(sphere.GetOutput())"""
         self.hand.update()
         self.assertTrue((numbered != self.picture()).any(), "balls and numbers were drawn")
 
+    def test_landmarks_come_back_with_data_of_any_name(self):
+        name = 'a"<&> % %41 \u00e9 </VTKFile>'  # VTK writes names into XML as they are
+        sphere = self.make("Sphere", ThetaResolution=48, PhiResolution=48)
+        self.touch(self.make("PythonCalculator", Input=sphere, Expression="Normals[:,0]", ArrayName=name))
+        self.step_to_contact(1500)
+        self.hand.drop_landmark()
+        marks = self.hand.vtk.GetLandmarks()
+        value, contents = marks.GetLandmark(0).GetValue(name), self.hand.LandmarkContents
+        self.assertTrue(math.isfinite(value))
+        self.hand.LandmarkContents = ""
+        self.assertEqual(self.hand.NumberOfLandmarks, 0)
+        self.hand.LandmarkContents = contents
+        self.assertEqual(self.hand.NumberOfLandmarks, 1)
+        self.assertEqual(marks.GetLandmark(0).GetValue(name), value)
+        self.hand.proxy.InvokeCommand("ClearLandmarks")
+
     def test_in_free_space_no_landmark_is_dropped(self):
         self.touch(self.make("Sphere"))
         self.hand.step(10)

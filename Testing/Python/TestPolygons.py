@@ -180,6 +180,17 @@ def test_what_vtk_draws_well_is_not_copied():
     assert surface_actor(vtkPolyData()).GetMapper() is not None
 
 
+def test_edges_are_known_of_cells_in_32_bits():
+    points = [(0.0, 0.0, 0.0)] * 60000 + [(-1, -1, 0), (1, -1, 0), (0, -0.5, 0), (0, 1, 0)]
+    flags = []
+    for bits in (32, 64):
+        arrow = surface_of(points, [[60000, 60002, 60001, 60003]])
+        cells = arrow.GetPolys()
+        assert cells.ConvertTo32BitStorage() if bits == 32 else cells.ConvertTo64BitStorage()
+        flags.append(vtk_to_numpy(drawable(arrow).GetPointData().GetArray("vtkEdgeFlags")))
+    assert (flags[0] == flags[1]).all() and flags[0][len(points):].sum() == 4, flags
+
+
 def test_large_ones_are_right_while_the_picture_moves(folder):
     path = write(prism(SLOT), folder, "large.vtp")
     before, detail.LARGE = detail.LARGE, 3
@@ -207,4 +218,5 @@ with tempfile.TemporaryDirectory() as scratch:
     test_wireframes_have_the_edges_of_polygons_alone(scratch)
     test_large_ones_are_right_while_the_picture_moves(scratch)
 test_what_vtk_draws_well_is_not_copied()
+test_edges_are_known_of_cells_in_32_bits()
 sys.stdout.flush()

@@ -102,6 +102,7 @@ def _with_triangles(surface, wrong, sizes, of_wrong, triangles, of_cells):
     begins = np.concatenate([[0], np.cumsum(sizes[wrong])])
     following = np.arange(1, len(of_wrong) + 1)
     following[begins[1:] - 1] = begins[:-1]
+    of_wrong = of_wrong.astype(np.int64)  # cells may be numbered in 32 bits
     edges = of_wrong * count + of_wrong[following]
     is_edge = np.isin(triangles * count + np.roll(triangles, -1, axis=1), edges)
 
