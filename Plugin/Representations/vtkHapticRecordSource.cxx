@@ -1,5 +1,6 @@
 #include "vtkHapticRecordSource.h"
 
+#include "PolyDataText.h"
 #include "vtkBoundingBox.h"
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
@@ -12,8 +13,6 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
-#include "vtkXMLPolyDataReader.h"
-#include "vtkXMLPolyDataWriter.h"
 
 #include <cmath>
 #include <vector>
@@ -62,12 +61,7 @@ std::string vtkHapticRecordSource::MakeContents(vtkPolyData* record)
     written->GetPointData()->AddArray(magnitude);
     written->GetPointData()->SetActiveScalars("ForceMagnitude"); // by which ParaView colours it
   }
-  vtkNew<vtkXMLPolyDataWriter> writer;
-  writer->SetInputData(written);
-  writer->SetDataModeToBinary(); // base64: no byte that a property or XML could not hold
-  writer->WriteToOutputStringOn();
-  writer->Write();
-  return writer->GetOutputString();
+  return haptics::ToText(written);
 }
 
 void vtkHapticRecordSource::MakeCurves(vtkPolyData* trace, vtkIdType first, vtkPolyData* curves)
@@ -146,16 +140,13 @@ int vtkHapticRecordSource::RequestData(
   {
     return 1;
   }
-  vtkNew<vtkXMLPolyDataReader> reader;
-  reader->ReadFromInputStringOn();
-  reader->SetInputString(this->Contents);
-  reader->Update();
-  if (reader->GetErrorCode() != 0)
+  vtkNew<vtkPolyData> record;
+  if (!haptics::FromText(this->Contents, record))
   {
     vtkErrorMacro("The contents are no polydata. Give what MakeContents() makes.");
     return 0;
   }
-  vtkPolyData::GetData(outputVector)->ShallowCopy(reader->GetOutput());
+  vtkPolyData::GetData(outputVector)->ShallowCopy(record);
   return 1;
 }
 

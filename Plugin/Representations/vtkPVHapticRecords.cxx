@@ -1,22 +1,15 @@
 #include "vtkPVHapticRecords.h"
 
+#include "PolyDataText.h"
 #include "RepresentedSurfaces.h"
-#include "vtkAbstractArray.h"
-#include "vtkCellData.h"
 #include "vtkHapticLandmarks.h"
 #include "vtkHapticScene.h"
 #include "vtkHapticServo.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkPointData.h"
 #include "vtkPolyData.h"
-#include "vtkXMLPolyDataReader.h"
-#include "vtkXMLPolyDataWriter.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <cstring>
-#include <numeric>
 
 vtkStandardNewMacro(vtkPVHapticRecords);
 
@@ -37,48 +30,6 @@ std::vector<std::string> Split(const std::string& contents)
     begin = std::min(contents.find('<', end), contents.size());
   }
   return texts;
-}
-
-/// VTK's writer puts names of arrays into XML as they are: what XML does not bear, and %, is %XX.
-std::string Encoded(const std::string& name)
-{
-  std::string text;
-  for (const char c : name)
-  {
-    const bool isPlain = c >= ' ' && !std::strchr("%\"<>&\x7f", c);
-    char code[8];
-    std::snprintf(code, sizeof(code), "%%%02X", static_cast<unsigned char>(c));
-    text += isPlain || static_cast<unsigned char>(c) >= 0x80 ? std::string(1, c) : code;
-  }
-  return text;
-}
-
-std::string Decoded(const std::string& text)
-{
-  std::string name;
-  for (std::size_t i = 0; i < text.size(); ++i)
-  {
-    unsigned int code = 0;
-    const bool isCode =
-      text[i] == '%' && std::sscanf(text.substr(i + 1, 2).c_str(), "%2x", &code) == 1;
-    name += isCode ? static_cast<char>(code) : text[i];
-    i += isCode ? 2 : 0;
-  }
-  return name;
-}
-
-/// Gives the arrays of data, which no one else has, other names.
-void RenameArrays(vtkPolyData* record, std::string (*renamed)(const std::string&))
-{
-  for (vtkFieldData* data : { static_cast<vtkFieldData*>(record->GetPointData()),
-         static_cast<vtkFieldData*>(record->GetCellData()) })
-  {
-    for (int i = 0; i < data->GetNumberOfArrays(); ++i)
-    {
-      vtkAbstractArray* const array = data->GetAbstractArray(i);
-      array->SetName(renamed(array->GetName() ? array->GetName() : "").c_str());
-    }
-  }
 }
 }
 
@@ -152,15 +103,7 @@ const std::vector<std::string>& vtkPVHapticRecords::Texts()
     for (int i = 0; i < landmarks->GetNumberOfLandmarks(); ++i)
     {
       landmarks->GetRecord(i, record);
-      vtkNew<vtkPolyData> copy;
-      copy->DeepCopy(record);
-      RenameArrays(copy, &Encoded);
-      vtkNew<vtkXMLPolyDataWriter> writer;
-      writer->SetInputData(copy);
-      writer->SetDataModeToBinary(); // base64: no byte that a property or XML could not hold
-      writer->WriteToOutputStringOn();
-      writer->Write();
-      this->LandmarkTexts.push_back(Split(writer->GetOutputString()).front());
+      this->LandmarkTexts.push_back(Split(haptics::ToText(record)).front());
     }
   }
   return this->LandmarkTexts;
@@ -168,8 +111,15 @@ const std::vector<std::string>& vtkPVHapticRecords::Texts()
 
 std::string vtkPVHapticRecords::GetLandmarkContents()
 {
-  return this->Scene ? std::accumulate(this->Texts().begin(), this->Texts().end(), std::string())
-                     : std::string();
+  std::string contents;
+  if (this->Scene)
+  {
+    for (const std::string& text : this->Texts())
+    {
+      contents += text;
+    }
+  }
+  return contents;
 }
 
 void vtkPVHapticRecords::SetLandmarkContents(const char* contents)
@@ -193,12 +143,9 @@ void vtkPVHapticRecords::SetLandmarkContents(const char* contents)
   }
   for (std::size_t i = kept; i < wanted.size(); ++i)
   {
-    vtkNew<vtkXMLPolyDataReader> reader;
-    reader->ReadFromInputStringOn();
-    reader->SetInputString(wanted[i]);
-    reader->Update();
-    RenameArrays(reader->GetOutput(), &Decoded);
-    landmarks->Add(reader->GetOutput());
+    vtkNew<vtkPolyData> record;
+    haptics::FromText(wanted[i], record);
+    landmarks->Add(record); // says so where it is none
   }
 }
 

@@ -330,10 +330,11 @@ self.GetOutput().ShallowCopy(sphere.GetOutput())"""
         self.hand.update()
         self.assertTrue((numbered != self.picture()).any(), "balls and numbers were drawn")
 
-    def test_landmarks_come_back_with_data_of_any_name(self):
+    def test_landmarks_and_trace_come_back_with_data_of_any_name(self):
         name = 'a"<&> % %41 \u00e9 </VTKFile>'  # VTK writes names into XML as they are
         sphere = self.make("Sphere", ThetaResolution=48, PhiResolution=48)
         self.touch(self.make("PythonCalculator", Input=sphere, Expression="Normals[:,0]", ArrayName=name))
+        self.hand.RecordTrace = 1
         self.step_to_contact(1500)
         self.hand.drop_landmark()
         marks = self.hand.vtk.GetLandmarks()
@@ -344,6 +345,10 @@ self.GetOutput().ShallowCopy(sphere.GetOutput())"""
         self.hand.LandmarkContents = contents
         self.assertEqual(self.hand.NumberOfLandmarks, 1)
         self.assertEqual(marks.GetLandmark(0).GetValue(name), value)
+        source = self.hand.trace_source()
+        self.made.append(source)
+        source.UpdatePipeline()
+        self.assertIn(name, source.PointData.keys())
         self.hand.proxy.InvokeCommand("ClearLandmarks")
 
     def test_in_free_space_no_landmark_is_dropped(self):

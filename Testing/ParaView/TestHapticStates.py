@@ -208,7 +208,7 @@ def drop_landmarks(user):
     return marked
 
 
-def save(desktop, program, folder):
+def save(desktop, program, folder, _marked):
     user = User(desktop, program)
     state, python, trace = (os.path.join(folder, name) for name in ("state.pvsm", "state.py", "trace.py"))
     program.says("READY", SECONDS)
@@ -305,7 +305,7 @@ def main():
         for use, more in ((save, [f"--script={script}"]), (load_and_touch, [])):
             program = desktop.start(command + more, "ParaView", SECONDS)
             try:
-                marked = use(desktop, program, folder, *[marked] * (use is load_and_touch)) or marked
+                marked = use(desktop, program, folder, marked) or marked
             except AssertionError:
                 print(program.output())
                 raise
