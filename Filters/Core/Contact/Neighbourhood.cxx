@@ -8,9 +8,9 @@ namespace haptics
 namespace
 {
 /// About as many make gathering rare and scanning quick.
-constexpr double WantedInBall = 16.0;
+constexpr double WantedInBall = 20.0;
 /// How far ahead of the god-object a ball is centred, in radii.
-constexpr double ShareAhead = 0.5;
+constexpr double ShareAhead = 0.9;
 /// Of the distance from the surface, a ball that is hoped to be empty after a while.
 constexpr double ShareFree = 0.9;
 /// Of the radius of a ball of as many as wanted: one that is empty, and smaller, does not serve.
@@ -22,13 +22,13 @@ constexpr double RadiiOfLeap = 4.0;
 /// Of a patch's radius.
 constexpr double ShareOfPatch = 1.0 / 64.0;
 
-/// How far ahead of a steady motion a ball is centred, so that it serves longer. `moved`: since the
-/// last one.
-Vector Ahead(const Vector& moved, double radius)
+/// How far ahead of a motion a ball is centred, so that it serves the next ones too: not where it
+/// does not hold this one.
+Vector Ahead(const Vector& way, double radius)
 {
-  const double way = glm::length(moved);
-  const bool isSteady = way > 0.0 && way < 2.0 * radius;
-  return (isSteady ? ShareAhead * radius / way : 0.0) * moved;
+  const double length = glm::length(way);
+  const bool isShort = length > 0.0 && length < 2.0 * radius;
+  return (isShort ? ShareAhead * radius / length : 0.0) * way;
 }
 
 std::size_t CapacityFor(const TriangleSurface& surface)
@@ -159,12 +159,11 @@ bool Neighbourhood::GoesNowhere(const Vector& to)
   return isNowhere;
 }
 
-bool Neighbourhood::GatherBall(WorkBudget& budget)
+bool Neighbourhood::GatherBallAhead(const Vector& way, WorkBudget& budget)
 {
   this->Forget();
   const TriangleSurface& surface = this->Table.Surface().Surface();
   const Vector position = this->Table.Position();
-  const Vector moved = position - this->GatheredAt;
   this->GatheredAt = position;
   const double surfaceRadius = surface.Radius();
   const double fromOrigin = glm::length(position);
@@ -190,7 +189,7 @@ bool Neighbourhood::GatherBall(WorkBudget& budget)
   const double smallestInPatch = patch ? ShareOfPatch * patch->Region().Radius : HUGE_VAL;
   while (budget.Triangles > 0)
   {
-    const Vector centre = position + Ahead(moved, radius);
+    const Vector centre = position + Ahead(way, radius);
     TriangleList found{ this->Triangles.data(), std::min(capacity, this->MostInBall) };
     if (radius > smallestInPatch && !this->IsWithinPatch(centre, radius))
     {
@@ -251,7 +250,8 @@ bool Neighbourhood::GatherBallFor(const Vector& to, WorkBudget& budget)
     return true;
   }
   this->IsFreeGrowing = !wasEmpty;
-  return this->GatherNothing(radius, to) || this->GatherBall(budget);
+  return this->GatherNothing(radius, to) ||
+    this->GatherBallAhead(to - this->Table.Position(), budget);
 }
 
 /// In free space a ball in which there is nothing serves as long, and the engine looks at little
@@ -259,7 +259,7 @@ bool Neighbourhood::GatherBallFor(const Vector& to, WorkBudget& budget)
 bool Neighbourhood::GatherNothing(double radius, const Vector& to)
 {
   const Vector& position = this->Table.Position();
-  const Vector centre = position + Ahead(position - this->GatheredAt, radius);
+  const Vector centre = position + Ahead(to - position, radius);
   const TriangleSurface& surface = this->Table.Surface().Surface();
   TriangleList found{ this->Triangles.data(), 0 };
   found.Overflow = radius <= ShareOfWanted * this->RadiusToTry ||

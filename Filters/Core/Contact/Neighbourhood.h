@@ -95,7 +95,7 @@ public:
 
   ///@{
   /// False where the budget ends first, or one place has more triangles than fit.
-  bool GatherBall(WorkBudget& budget);
+  bool GatherBall(WorkBudget& budget) { return this->GatherBallAhead(Vector(0.0), budget); }
   /// The same for a motion: in free space a ball that holds all of it, and nothing else, is enough.
   bool GatherBallFor(const Vector& to, WorkBudget& budget);
   bool GatherSegment(const Vector& to, WorkBudget& budget);
@@ -137,6 +137,7 @@ private:
   };
 
   bool IsWithinPatch(const Vector& centre, double radius) const;
+  bool GatherBallAhead(const Vector& way, WorkBudget& budget);
   bool GatherNothing(double radius, const Vector& to);
   double Fill(const TriangleList& found, const Vector& centre, const Vector& middle, double radius,
     double farthest);
