@@ -229,7 +229,44 @@ def test_formulas(folder):
     assert "'=HYPERLINK(A1)" in names, names
 
 
+def test_files_are_written_whoever_reads_what_is_printed(folder):
+    surface, trace = make_surface(os.path.join(folder, "part.vtp")), os.path.join(folder, "t.vtp")
+    output = os.path.join(folder, "demo")
+    programs = {
+        "vtkhaptics": ([surface, "--offscreen", "--seconds", "2", "--size", "200", "150", "--trace", trace],
+                       [trace]),
+        "vtkhaptics.demo": (["--surface", surface, "--offscreen", "--seconds", "2", "--output", output],
+                            [os.path.join(output, name) for name in ("trace.vtp", "touched.png")]),
+    }
+    full = "could not be written: No space left on device. Send it elsewhere."
+    for unbuffered in ("", "1"):
+        for streams, status, said in (
+            ("| true", 0, ""), ("2>&1 | true", 0, ""), (">&-", 0, ""), ("<&- >&- 2>&-", 0, ""),
+            ("2>/dev/full >&2", 1, ""), (">/dev/full", 1, full),
+        ):
+            for module, (arguments, files) in programs.items():
+                if module.endswith("demo") and streams not in ("| true", ">/dev/full"):
+                    continue
+                for command in (arguments, ["--help"], ["--list-devices"], ["--wrong"]):
+                    wrong = command == ["--wrong"] or (module.endswith("demo") and command == ["--list-devices"])
+                    if wrong and status:
+                        continue  # says nothing on standard output
+                    done = subprocess.run(
+                        ["bash", "-c", f'"$@" {streams}; exit ${{PIPESTATUS[0]}}', "bash",
+                         sys.executable, "-m", module, *command],
+                        env={**os.environ, "PYTHONUNBUFFERED": unbuffered},
+                        capture_output=True, text=True, check=False)
+                    case = unbuffered, streams, module, command[0], done
+                    assert done.returncode == (2 if wrong else status), case
+                    assert said in done.stderr and "Traceback" not in done.stderr, case
+                    assert "Exception" not in done.stderr, case
+                for file in files:
+                    assert os.path.getsize(file) > 1000, (unbuffered, streams, module)
+                    os.remove(file)
+
+
 for test in (test_modes_and_links, test_what_fails_leaves_the_old_file, test_full_disk,
-             test_inputs_are_never_written, test_viewer_on_a_full_disk, test_formulas):
+             test_inputs_are_never_written, test_viewer_on_a_full_disk, test_formulas,
+             test_files_are_written_whoever_reads_what_is_printed):
     with tempfile.TemporaryDirectory() as scratch:
         test(os.path.realpath(scratch))

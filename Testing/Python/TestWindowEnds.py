@@ -179,8 +179,8 @@ def test_signals_on_the_way_to_the_window(desktop, folder):
                 os.remove(result)
 
 
-def test_a_terminal_that_is_closed(desktop, folder):
-    results = [os.path.join(folder, f"closed.{kind}") for kind in ("vtp", "png", "csv")]
+def test_a_terminal_that_is_closed(desktop, folder, unbuffered):
+    results = [os.path.join(folder, f"closed{unbuffered}.{kind}") for kind in ("vtp", "png", "csv")]
     terminal, inner = os.openpty()
 
     def lead():  # the terminal's session, as `xterm -e` has it
@@ -191,7 +191,7 @@ def test_a_terminal_that_is_closed(desktop, folder):
     program = subprocess.Popen(
         [sys.executable, "-m", "vtkhaptics", ball(folder), "--size", "400", "300", "--trace", results[0],
          "--screenshot", results[1], "--landmarks", results[2]],
-        env=desktop.environment, stdin=inner, stdout=inner, stderr=inner, preexec_fn=lead)
+        env={**desktop.environment, "PYTHONUNBUFFERED": unbuffered}, stdin=inner, stdout=inner, stderr=inner, preexec_fn=lead)
     os.close(inner)
     said = b""
     while b"triangles" not in said:  # what it writes has nowhere to go later
@@ -203,6 +203,44 @@ def test_a_terminal_that_is_closed(desktop, folder):
     assert program.wait(30.0) == 129
     for result in results:
         assert os.path.getsize(result) > 0, result
+
+
+def test_a_reader_that_goes(desktop, folder):
+    """`| head -1`: the pipe's other end is closed while the window is open."""
+    for unbuffered in ("", "1"):
+        for act, status in (("q", 0), (signal.SIGINT, 130), (signal.SIGTERM, 143)):
+            stem = os.path.join(folder, f"unread{unbuffered}{status}")
+            surface = ball(folder)
+            for command, results, began in (
+                (["vtkhaptics", surface, "--size", "400", "300", "--trace", stem + ".vtp", "--screenshot",
+                  stem + ".png", "--landmarks", stem + ".csv"], [stem + ".vtp", stem + ".png", stem + ".csv"],
+                 b"triangles"),
+                (["vtkhaptics.demo", "--surface", surface, "--output", stem, "--seconds", "60"],
+                 [os.path.join(stem, name) for name in ("trace.vtp", "touched.png")], b"touching"),
+            ):
+                errors = tempfile.TemporaryFile()
+                program = subprocess.Popen(
+                    [sys.executable, "-m", *command], env={**desktop.environment, "PYTHONUNBUFFERED": unbuffered},
+                    stdout=subprocess.PIPE, stderr=errors, preexec_fn=default_signals)
+                said = b""
+                while began not in said:
+                    said += os.read(program.stdout.fileno(), 1024)
+                program.stdout.close()
+                window = desktop.xdo("search", "--sync", "--onlyvisible", "--name", "VTK Haptics").split()[-1]
+                wait_for_servo(program)
+                time.sleep(1.0)
+                if act == "q":
+                    desktop.xdo("mousemove", "--window", window, "200", "150")
+                    desktop.xdo("windowfocus", "--sync", window)
+                    desktop.xdo("key", "q")
+                else:
+                    program.send_signal(act)
+                found = program.wait(30.0)
+                errors.seek(0)
+                assert found == status and errors.read() == b"", (command, act, found)
+                errors.close()
+                for result in results:
+                    assert os.path.getsize(result) > 0, (act, result)
 
 
 def test_nohup(desktop, folder):
@@ -221,7 +259,9 @@ with Desktop() as screen, tempfile.TemporaryDirectory() as scratch:
     test_interrupt_on_the_way_into_the_event_loop(screen, scratch)
     test_viewer(screen, scratch)
     test_signals_on_the_way_to_the_window(screen, scratch)
-    test_a_terminal_that_is_closed(screen, scratch)
+    for is_unbuffered in ("", "1"):
+        test_a_terminal_that_is_closed(screen, scratch, is_unbuffered)
+    test_a_reader_that_goes(screen, scratch)
     test_nohup(screen, scratch)
     test_demo(screen, scratch)
     if len(sys.argv) > 1:

@@ -37,6 +37,9 @@ exit status:
   0 done; 1 the device or the servo failed, or a file could not be written; 2 wrong arguments, or a
   surface or recording that cannot be read; 3 no display to draw with; 130, 143, 129 ended by Ctrl-C (SIGINT),
   SIGTERM or SIGHUP, with the results until then, where the surfaces had been ready
+
+where nobody reads what is printed (`| head -1`), the rest is dropped, and nothing else changes; a full disk
+behind it gives 1, with all files written
 """
 
 

@@ -22,6 +22,7 @@ from .errors import HapticsError
 from .interrupt import ENDS, Interrupts
 from .output import OutputError, check_outputs, write_polydata
 from .picture import Picture, add_hand, stroke_lines
+from .printing import printing
 from .stroke import StrokeError, in_device_frame, plan_stroke
 from .surfaces import READERS, SurfaceError, read_surface
 
@@ -44,6 +45,9 @@ exit status:
   be written; 2 wrong arguments or a surface that cannot be read; 3 no display to draw with;
   130, 143, 129 ended by Ctrl-C (SIGINT), SIGTERM or SIGHUP, with the results until then, where the
   stroke had begun
+
+where nobody reads what is printed (`| head -1`), the rest is dropped, and nothing else changes; a full disk
+behind it gives 1, with all files written
 """
 
 
@@ -274,6 +278,7 @@ def report(options, scene, picture, over):
     return contact
 
 
+@printing("demo")
 def main(arguments=None):
     """What the command line does; returns the exit status."""
     options = parse(arguments)

@@ -2,8 +2,6 @@
 written, and nothing is torn off."""
 
 import contextlib
-import os
-import select
 import signal
 import sys
 import threading
@@ -108,8 +106,6 @@ class Interrupts:
 
     def _on_signal(self, number, _frame):
         self._status = self._status or EXIT_SIGNAL + number
-        if number != signal.SIGINT:
-            _leave_terminal()
         if self._interactor is not None:
             self._came = True
             if not self._interactor.GetDone():  # again too: the loop may have begun after the first
@@ -118,20 +114,6 @@ class Interrupts:
             _Deferral.is_due = True
         else:
             raise KeyboardInterrupt
-
-
-def _leave_terminal():
-    """Prints into nothing where the terminal or the reader of a pipe has gone: writing there would
-    fail, and with it what is to be written into files."""
-    if not hasattr(select, "poll"):
-        return
-    for stream in (1, 2):
-        poll = select.poll()
-        poll.register(stream, 0)
-        gone = select.POLLHUP | select.POLLERR
-        if any(events & gone for _, events in poll.poll(0)):
-            with open(os.devnull, "wb") as nothing:
-                os.dup2(nothing.fileno(), stream)
 
 
 def is_interactive():

@@ -41,6 +41,7 @@ from .picture import (
     surface_actor,
     touched_actor,
 )
+from .printing import printing
 from .progress import PATIENCE, ProgressBar
 from .recording import RecordingError, read_recording
 from .stroke import StrokeError, in_device_frame, plan_stroke
@@ -437,6 +438,7 @@ def run(options, interrupts):
         )
 
 
+@printing("vtkhaptics")
 def main(arguments=None):
     """What the command line does; returns the exit status."""
     arguments = sys.argv[1:] if arguments is None else list(arguments)
