@@ -3,19 +3,21 @@ their cells, and no lines of a wireframe but their edges."""
 
 import io
 import os
+import signal
 import sys
 import tempfile
 from contextlib import redirect_stdout
 
 import numpy as np
 import vtkhaptics
-from vtkhaptics import detail
+from vtkhaptics import detail, polygons
 from vtkhaptics.arguments import parse
 from vtkhaptics.picture import surface_actor
 from vtkhaptics.polygons import drawable
 from vtkhaptics.viewer import Viewer
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import VTK_QUAD, vtkCellArray, vtkPolyData, vtkUnstructuredGrid
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
@@ -191,6 +193,57 @@ def test_edges_are_known_of_cells_in_32_bits():
     assert (flags[0] == flags[1]).all() and flags[0][len(points):].sum() == 4, flags
 
 
+def test_cells_of_points_that_are_not_there_are_named():
+    """In memory, where no reader has looked at them: VTK would end the process."""
+    for kind, count in (("Polys", 4), ("Strips", 4), ("Polys", 0), ("Polys", None)):
+        for last in (4, -1, 2**40):
+            cells = vtkCellArray()
+            cells.InsertNextCell(4, [0, 1, 3, last])
+            surface = vtkPolyData()
+            if count is not None:
+                surface.SetPoints(vtkPoints())
+                surface.GetPoints().SetNumberOfPoints(count)
+            getattr(surface, f"Set{kind}")(cells)
+            grid = vtkUnstructuredGrid()
+            grid.SetPoints(surface.GetPoints() or vtkPoints())
+            grid.SetCells(VTK_QUAD, cells)
+            words = f"a cell names point {last if count else 0}, but there are {count or 0} points"
+            for call, data, begin in (
+                (vtkhaptics.touch, surface, "" if not count else f"surface 0: {words}"),
+                (drawable, surface, words), (surface_actor, surface, words), (vtkhaptics.polydata, grid, words),
+            ):
+                try:
+                    call(data)
+                except ValueError as error:
+                    assert str(error).startswith(begin), (call, error)
+                else:
+                    raise AssertionError((call, kind, count, last))
+
+
+def test_many_are_cut_in_parts_that_who_waits_sees_and_can_end():
+    surface, shares = roof(), []
+    whole = drawable(surface)
+    before, polygons.AT_ONCE = polygons.AT_ONCE, 2
+
+    def progress(share):
+        shares.append(share)
+        if len(shares) == 7:
+            os.kill(os.getpid(), signal.SIGINT)
+
+    try:
+        parts = drawable(surface, progress)
+        try:
+            drawable(surface, progress)
+        except KeyboardInterrupt:
+            pass
+    finally:
+        polygons.AT_ONCE = before
+    assert np.allclose(shares, [2 / 9, 4 / 9, 6 / 9, 8 / 9, 1.0, 2 / 9, 4 / 9]), shares
+    for get in (lambda s: s.GetPoints().GetData(), lambda s: s.GetPolys().GetConnectivityArray(),
+                lambda s: s.GetCellData().GetArray("Part"), lambda s: s.GetPointData().GetArray("vtkEdgeFlags")):
+        assert (vtk_to_numpy(get(whole)) == vtk_to_numpy(get(parts))).all()
+
+
 def test_large_ones_are_right_while_the_picture_moves(folder):
     path = write(prism(SLOT), folder, "large.vtp")
     before, detail.LARGE = detail.LARGE, 3
@@ -219,4 +272,6 @@ with tempfile.TemporaryDirectory() as scratch:
     test_large_ones_are_right_while_the_picture_moves(scratch)
 test_what_vtk_draws_well_is_not_copied()
 test_edges_are_known_of_cells_in_32_bits()
+test_cells_of_points_that_are_not_there_are_named()
+test_many_are_cut_in_parts_that_who_waits_sees_and_can_end()
 sys.stdout.flush()

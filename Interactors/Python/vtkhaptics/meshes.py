@@ -22,8 +22,8 @@ def polydata(surface: Any) -> vtkPolyData:
       `vertices` (n, 3), `faces` (m, 3) or (m, k), or a sequence of corners for each face;
     - the name of a file: .stl, .ply, .obj, .vtp, .vtk, .gii.
 
-    Raises TypeError for anything else, ValueError for arrays of another shape, and
-    surfaces.SurfaceError for a file that cannot be read.
+    Raises TypeError for anything else, ValueError for arrays of another shape and cells of points that are
+    not there, and surfaces.SurfaceError for a file that cannot be read.
     """
     if isinstance(surface, vtkPolyData):
         return surface
@@ -110,6 +110,10 @@ def points(coordinates, name="points"):
 def _outer_surface(data):
     from vtkmodules.vtkFiltersGeometry import vtkCompositeDataGeometryFilter, vtkGeometryFilter
 
+    from .volumes import check_cells, leaves
+
+    for part in leaves(data):
+        check_cells(part)
     outside = (
         vtkGeometryFilter() if isinstance(data, vtkDataSet) else vtkCompositeDataGeometryFilter()
     )

@@ -24,14 +24,17 @@ from .coloring import force_colors, scalar_bar
 from .output import write_png
 from .polygons import drawable, has_polygons
 from .surfaces import SurfaceError
+from .volumes import check_cells
 
 SIZE = (1200, 800)
 BACKGROUND = ((0.93, 0.94, 0.96), (0.66, 0.71, 0.78))
 
 
-def surface_actor(surface, color=(0.74, 0.80, 0.86)):
+def surface_actor(surface, color=(0.74, 0.80, 0.86), progress=None):
     """An actor that shows a vtkPolyData smooth, but for edges sharper than 35 degrees; polygons, too, as
-    they are touched. It follows later changes of one whose polygons VTK draws so by itself."""
+    they are touched. It follows later changes of one whose polygons VTK draws so by itself. `progress` is
+    called with 0 to 1. Raises NoSurfaceError, a ValueError, where a cell names a point that is not there."""
+    check_cells(surface)
     normals = vtkPolyDataNormals()
     normals.SetInputData(surface)
     normals.SetFeatureAngle(35.0)
@@ -40,7 +43,7 @@ def surface_actor(surface, color=(0.74, 0.80, 0.86)):
     mapper.SetInputConnection(normals.GetOutputPort())
     if has_polygons(surface):
         normals.Update()
-        drawn = drawable(normals.GetOutput())
+        drawn = drawable(normals.GetOutput(), progress)
         if drawn is not normals.GetOutput():
             mapper.SetInputData(drawn)
     mapper.ScalarVisibilityOff()

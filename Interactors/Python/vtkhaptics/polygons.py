@@ -10,10 +10,11 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataSetAttributes, vt
 
 from . import vtkGodObjectFilter
 from .errors import HapticsError
+from .volumes import check_cells
 
 FACING = 0.99  # cosine of the angle by which a triangle of the fan may differ from its polygon
 SLIVER = 1e-6  # of a polygon's area: what is smaller faces anywhere
-AT_ONCE = 500_000  # polygons that are looked at, for the memory
+AT_ONCE = 100_000  # polygons that are looked at: for the memory, and for who waits or presses Ctrl-C
 
 
 def has_polygons(surface):
@@ -21,10 +22,12 @@ def has_polygons(surface):
     return surface.GetPolys().IsHomogeneous() not in (0, 3)
 
 
-def drawable(surface):
+def drawable(surface, progress=None):
     """A vtkPolyData that VTK draws as it is touched, in filled triangles and in lines: `surface` itself
     where it does so, else a copy with triangles in place of some polygons, and the values of those.
-    Where nothing can be touched, which other places report, it is `surface` too."""
+    Where nothing can be touched, which other places report, it is `surface` too. `progress` is called with
+    0 to 1. Raises NoSurfaceError, a ValueError, where a cell names a point that is not there."""
+    check_cells(surface)
     if not has_polygons(surface):
         return surface
     points = vtk_to_numpy(surface.GetPoints().GetData())
@@ -36,12 +39,29 @@ def drawable(surface):
     wrong = _wrong_fans(points, offsets, corners)
     if not len(wrong):
         return surface
-    of_wrong = np.concatenate([corners[offsets[i] : offsets[i + 1]] for i in wrong])
     sizes = np.diff(offsets)
-    triangles, of_cells = _as_touched(points, of_wrong, sizes[wrong])
+    is_kept = np.ones(len(sizes), bool)
+    is_kept[wrong] = False
+    is_kept_corner = np.repeat(is_kept, sizes)
+    of_wrong = corners[~is_kept_corner]
+    ends = np.cumsum(sizes[wrong])
+    begins = ends - sizes[wrong]
+    parts = []
+    for first in range(0, len(wrong), AT_ONCE):
+        part = slice(first, first + AT_ONCE)
+        begin = begins[first]
+        cut, of_cells = _as_touched(points[of_wrong[begin : ends[part][-1]]], sizes[wrong[part]])
+        parts.append((cut + begin, wrong[part][of_cells]))
+        if progress:
+            progress((first + len(begins[part])) / len(wrong))
+    triangles, of_cells = map(np.concatenate, zip(*parts))
     if not len(triangles):
         return surface
-    return _with_triangles(surface, wrong, sizes, of_wrong, triangles, wrong[of_cells])
+    following = np.arange(1, len(of_wrong) + 1)
+    following[ends - 1] = begins
+    is_edge = following[triangles] == np.roll(triangles, -1, axis=1)
+    return _with_triangles(
+        surface, is_kept, sizes[is_kept], corners[is_kept_corner], of_wrong[triangles], of_cells, is_edge)
 
 
 def _wrong_fans(points, offsets, corners):
@@ -66,18 +86,17 @@ def _wrong_fans(points, offsets, corners):
     return np.concatenate(wrong)
 
 
-def _as_touched(points, corners, sizes):
-    """Triangles (n, 3) of polygons as the hand meets them, by the numbers of the points, and for each
-    the polygon that it is of."""
-    ids, local = np.unique(corners, return_inverse=True)
+def _as_touched(corners, sizes):
+    """Triangles (n, 3) of polygons as the hand meets them, by the numbers of their corners, and for each
+    the polygon that it is of. Corners (n, 3) belong to one polygon each."""
     cells = vtkCellArray()
-    offsets = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64)
-    cells.SetData(*(numpy_to_vtkIdTypeArray(a, deep=True) for a in (offsets, local.astype(np.int64))))
+    offsets = np.concatenate([[0], np.cumsum(sizes)])
+    cells.SetData(*(numpy_to_vtkIdTypeArray(a, deep=True) for a in (offsets, np.arange(len(corners)))))
     polygons = vtkPolyData()
     polygons.SetPoints(vtkPoints())
-    polygons.GetPoints().SetData(numpy_to_vtk(points[ids], deep=True))
+    polygons.GetPoints().SetData(numpy_to_vtk(corners, deep=True))
     polygons.SetPolys(cells)
-    number = numpy_to_vtkIdTypeArray(ids.astype(np.int64), deep=True)
+    number = numpy_to_vtkIdTypeArray(np.arange(len(corners)), deep=True)
     number.SetName("Number")  # of its own for each, so that equal points stay several
     polygons.GetPointData().AddArray(number)
     cutter = vtkGodObjectFilter()
@@ -95,22 +114,13 @@ def _as_touched(points, corners, sizes):
     return triangles, vtk_to_numpy(result.GetCellData().GetArray("OriginalCellId"))
 
 
-def _with_triangles(surface, wrong, sizes, of_wrong, triangles, of_cells):
-    """A copy of a surface with triangles in place of the polygons `wrong`. Their corners are points of
-    their own, which say what is no edge of a polygon and hence no line of a wireframe."""
+def _with_triangles(surface, is_kept, sizes, corners, triangles, of_cells, is_edge):
+    """A copy of a surface with the polygons that are kept, of their sizes and corners, and with triangles
+    in place of the others. Their corners are points of their own, which say what is no edge of a polygon
+    and hence no line of a wireframe."""
     count, others = surface.GetNumberOfPoints(), surface.GetNumberOfVerts() + surface.GetNumberOfLines()
-    begins = np.concatenate([[0], np.cumsum(sizes[wrong])])
-    following = np.arange(1, len(of_wrong) + 1)
-    following[begins[1:] - 1] = begins[:-1]
-    of_wrong = of_wrong.astype(np.int64)  # cells may be numbered in 32 bits
-    edges = of_wrong * count + of_wrong[following]
-    is_edge = np.isin(triangles * count + np.roll(triangles, -1, axis=1), edges)
-
-    is_kept = np.ones(len(sizes), bool)
-    is_kept[wrong] = False
-    corners = vtk_to_numpy(surface.GetPolys().GetConnectivityArray())[np.repeat(is_kept, sizes)]
     corners = np.concatenate([corners, count + np.arange(triangles.size)]).astype(np.int64)
-    sizes = np.concatenate([[0], sizes[is_kept], np.full(len(triangles), 3)])
+    sizes = np.concatenate([[0], sizes, np.full(len(triangles), 3)])
     cells = vtkCellArray()
     cells.SetData(*(
         numpy_to_vtkIdTypeArray(a, deep=True) for a in (np.cumsum(sizes).astype(np.int64), corners)))

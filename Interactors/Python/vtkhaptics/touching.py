@@ -43,7 +43,7 @@ def touch(
         The trace.
 
     Raises what :func:`vtkhaptics.polydata` and :func:`vtkhaptics.enable` do, ValueError for a surface
-    without polygons, and HapticsError where there is no display. For files alone ``python3 -m vtkhaptics FILE`` does more.
+    without polygons or with cells of points that are not there, and HapticsError where there is no display. For files alone ``python3 -m vtkhaptics FILE`` does more.
     """
     from .coloring import color_by, scalar_bar
     from .display import needs_display
@@ -52,12 +52,17 @@ def touch(
     if not surfaces:
         raise TypeError("touch() needs at least one surface.")
     shown = [polydata(surface) for surface in surfaces]
+    actors = []
     for index, surface in enumerate(shown):
-        if surface.GetNumberOfPolys() + surface.GetNumberOfStrips() == 0:
+        if not surface.GetNumberOfPolys() + surface.GetNumberOfStrips() or not surface.GetNumberOfPoints():
             raise ValueError(
                 f"surface {index} has no polygons, hence nothing to touch "
                 f"({surface.GetNumberOfPoints()} points, {surface.GetNumberOfLines()} lines)."
             )
+        try:
+            actors.append(surface_actor(surface))
+        except ValueError as error:
+            raise ValueError(f"surface {index}: {error}") from error
     if needs_display():
         raise HapticsError(
             "there is no display to open a window on (DISPLAY is not set). Run it from a desktop or "
@@ -68,7 +73,6 @@ def touch(
     renderer.SetBackground2(*BACKGROUND[1])
     renderer.GradientBackgroundOn()
     add_lights(renderer)
-    actors = [surface_actor(surface) for surface in shown]
     for surface, actor in zip(shown, actors):
         renderer.AddActor(actor)
         actor._vtkhaptics_touched = touched_actor(surface, actor)

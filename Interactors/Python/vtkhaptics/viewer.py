@@ -86,7 +86,8 @@ class Viewer:
         for number, path in enumerate(self.options.surfaces):
             with ProgressBar(f"reading {os.path.basename(path)}") as bar:
                 surface = read_surface(path, bar.show, self.options.contour)
-            actor = surface_actor(surface, COLORS[number % len(COLORS)])
+            with ProgressBar(f"drawing {os.path.basename(path)}") as bar:
+                actor = surface_actor(surface, COLORS[number % len(COLORS)], bar.show)
             self._color(actor, surface, path)
             self.detail.add(actor)
             self.renderer.AddActor(actor)

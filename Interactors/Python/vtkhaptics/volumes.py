@@ -38,7 +38,7 @@ READERS = {
 }
 
 
-class NoSurfaceError(Exception):
+class NoSurfaceError(ValueError):
     """Why no surface can be made of data, and what to do."""
 
 
@@ -152,6 +152,6 @@ def check_cells(part):
             wrong = np.flatnonzero((ids < 0) | (ids >= count))
             if len(wrong):
                 raise NoSurfaceError(
-                    f"a cell names point {ids[wrong[0]]}, but the file has {count} points. "
+                    f"a cell names point {ids[wrong[0]]}, but there are {count} points. "
                     "Repair it, or save it again with the program that made it."
                 )
