@@ -32,11 +32,14 @@ so on have the details; ``python3 -m vtkhaptics --help`` is the viewer.
 """
 
 try:
-    # vtkGodObjectActor is made of actors, which only exist with a rendering back end.
-    import vtkmodules.vtkRenderingFreeType
-    import vtkmodules.vtkRenderingOpenGL2
+    from .interrupt import held_back
 
-    from . import vtkHapticsDevices, vtkHapticsFilters, vtkHapticsScene, vtkHapticsView
+    with held_back():
+        # vtkGodObjectActor is made of actors, which only exist with a rendering back end.
+        import vtkmodules.vtkRenderingFreeType
+        import vtkmodules.vtkRenderingOpenGL2
+
+        from . import vtkHapticsDevices, vtkHapticsFilters, vtkHapticsScene, vtkHapticsView
 except ImportError as error:
     import glob
     import os
@@ -65,20 +68,21 @@ except ImportError as error:
         f"vtkhaptics: a compiled module could not be loaded ({error}). {remedy}"
     ) from error
 
-from ._version import __version__
-from .classes import CLASSES
-from .errors import HapticsError, HapticsWarning
+with held_back():
+    from ._version import __version__
+    from .classes import CLASSES
+    from .errors import HapticsError, HapticsWarning
 
-globals().update(CLASSES)
+    globals().update(CLASSES)
 
-from .device import HapticDevice, share
-from .devices import create_device, known_devices, list_devices
-from .inline import picture_of
-from .meshes import polydata
-from .plotting import enable
-from .sharing import SharedHand
-from .touching import touch
-from .tracing import Trace, trace
+    from .device import HapticDevice, share
+    from .devices import create_device, known_devices, list_devices
+    from .inline import picture_of
+    from .meshes import polydata
+    from .plotting import enable
+    from .sharing import SharedHand
+    from .touching import touch
+    from .tracing import Trace, trace
 
 __all__ = [
     "HapticDevice",

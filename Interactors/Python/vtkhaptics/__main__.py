@@ -2,6 +2,10 @@
 
 import sys
 
-from .viewer import main
+from .interrupt import held_back
 
-sys.exit(main())
+with held_back():
+    from .viewer import main
+
+if __name__ == "__main__":
+    sys.exit(main())

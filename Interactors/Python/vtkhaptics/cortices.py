@@ -5,6 +5,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
+from .interrupt import held_back
 from .volumes import NoSurfaceError
 
 FREESURFER = b"\xff\xff\xfe"  # how a surface of triangles begins; its name is like lh.pial
@@ -20,11 +21,14 @@ def is_freesurfer(path):
 def read_freesurfer(path):
     """The mesh of a FreeSurfer file. Raises NoSurfaceError."""
     try:
-        from nibabel.freesurfer import read_geometry
+        with held_back():
+            from nibabel.freesurfer import read_geometry
     except ImportError as error:
         raise NoSurfaceError(f"FreeSurfer's files need nibabel. {INSTALL}") from error
     try:
         points, triangles = read_geometry(path)
+    except MemoryError:
+        raise
     except Exception as error:  # NumPy's own, of many kinds: all mean the file
         raise NoSurfaceError(
             f"could not be read as FreeSurfer's: {error}. Check that the file is whole."
@@ -35,7 +39,8 @@ def read_freesurfer(path):
 def read_gifti(path):
     """The meshes of a GIfTI file as one, with the other arrays that fit. Raises NoSurfaceError."""
     try:
-        import nibabel
+        with held_back():
+            import nibabel
     except ImportError as error:
         raise NoSurfaceError(f"GIfTI needs nibabel. {INSTALL}") from error
     try:
@@ -44,6 +49,8 @@ def read_gifti(path):
             [array.data for array in image.get_arrays_from_intent(intent)]
             for intent in ("NIFTI_INTENT_POINTSET", "NIFTI_INTENT_TRIANGLE")
         )
+    except MemoryError:
+        raise
     except Exception as error:  # nibabel's own, expat's, zlib's and OSError: all mean the file
         raise NoSurfaceError(
             f"could not be read as GIfTI: {error}. Check that the file is whole."

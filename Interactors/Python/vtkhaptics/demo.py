@@ -9,22 +9,24 @@ import os
 import sys
 import time
 
-import numpy as np
-from vtkmodules.util.misc import calldata_type
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.util.vtkConstants import VTK_INT
-from vtkmodules.vtkRenderingCore import vtkRenderWindowInteractor
+from .interrupt import ENDS, Interrupts, held_back
 
-from . import vtkGodObjectActor, vtkHapticScene, vtkInteractorStyleHaptic, vtkSimulatedHapticDevice
-from .arguments import add_seconds, check_seconds
-from .display import DisplayError, ensure_display
-from .errors import HapticsError
-from .interrupt import ENDS, Interrupts
-from .output import OutputError, check_outputs, write_polydata
-from .picture import Picture, add_hand, stroke_lines
-from .printing import printing
-from .stroke import StrokeError, in_device_frame, plan_stroke
-from .surfaces import READERS, SurfaceError, read_surface
+with held_back():
+    import numpy as np
+    from vtkmodules.util.misc import calldata_type
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.util.vtkConstants import VTK_INT
+    from vtkmodules.vtkRenderingCore import vtkRenderWindowInteractor
+
+    from . import vtkGodObjectActor, vtkHapticScene, vtkInteractorStyleHaptic, vtkSimulatedHapticDevice
+    from .arguments import add_seconds, check_seconds
+    from .display import DisplayError, ensure_display
+    from .errors import HapticsError
+    from .output import OutputError, check_outputs, write_polydata
+    from .picture import Picture, add_hand, stroke_lines
+    from .printing import printing
+    from .stroke import StrokeError, in_device_frame, plan_stroke
+    from .surfaces import READERS, SurfaceError, read_surface
 
 DEPTH_SHARES = (0.022, 0.011, 0.005, 0.002)  # of half the diagonal of the surface's bounds
 EXIT_DONE, EXIT_FAILED, EXIT_INPUT, EXIT_DISPLAY = 0, 1, 2, 3

@@ -2,6 +2,7 @@
 
 import os
 
+from .interrupt import held_back
 from .output import whole_file
 
 
@@ -10,8 +11,9 @@ def lines(path, x_label, y_label, curves, names=()):
     display. Prints where the picture is, or that there is none without matplotlib. Raises
     output.OutputError where it cannot be written."""
     try:
-        from matplotlib.backends.backend_agg import FigureCanvasAgg
-        from matplotlib.figure import Figure
+        with held_back():
+            from matplotlib.backends.backend_agg import FigureCanvasAgg
+            from matplotlib.figure import Figure
     except ImportError:
         print("no plot: matplotlib is not installed (pip install matplotlib)")
         return

@@ -42,6 +42,23 @@ def deferred():
             raise KeyboardInterrupt
 
 
+@contextlib.contextmanager
+def held_back():
+    """Keeps Ctrl-C until the block, which imports compiled modules, has ended: where it comes while one of
+    them imports another they report that as missing, those of VTK and of NumPy."""
+    came, handler = [], signal.getsignal(signal.SIGINT)
+    if threading.current_thread() is not threading.main_thread() or not callable(handler):
+        yield
+        return
+    signal.signal(signal.SIGINT, lambda *arguments: came.append(arguments))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, handler)
+        if came:
+            handler(*came[0])
+
+
 class Interrupts:
     """Takes `signals` while it is entered: SIGINT, or all of ENDS in a program that writes its results
     when it ends.

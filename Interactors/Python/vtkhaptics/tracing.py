@@ -12,6 +12,7 @@ from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm, vtkAlgorithmOutput
 
 from .classes import CLASSES
 from .errors import HapticsWarning
+from .interrupt import held_back
 from .meshes import points, polydata
 from .output import text_cell, whole_file
 from .units import metres
@@ -274,7 +275,8 @@ class Trace:
     def to_dataframe(self) -> Any:
         """A pandas.DataFrame with :meth:`columns`, a row a tick. Raises ImportError without pandas."""
         try:
-            import pandas
+            with held_back():
+                import pandas
         except ImportError as error:
             raise ImportError(
                 "to_dataframe() needs pandas (pip install pandas; Debian: apt-get install "
