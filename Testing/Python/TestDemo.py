@@ -91,6 +91,9 @@ def test_bad_input(folder):
         assert failed.returncode == 2, (path, failed.returncode, failed.stderr)
         assert text in failed.stderr and path in failed.stderr, failed.stderr
         assert "Traceback" not in failed.stderr, failed.stderr
+    for options in (("--surface", "", "--output", output), ("--surface", lines, "--output", "")):
+        failed = demo(*options, "--offscreen")
+        assert failed.returncode == 2 and "is empty; give a name" in failed.stderr, failed
     assert not os.path.exists(output), "nothing is written before there is a surface"
 
 

@@ -13,6 +13,7 @@ import numpy as np
 import vtkhaptics
 from real_window import default_signals, wait_for
 from vtkhaptics.display import needs_display
+from vtkhaptics.surfaces import SurfaceError
 
 EXAMPLES = os.path.join(os.environ["HAPTICS_SOURCE_DIR"], "Interactors", "Python", "examples")
 HEADLESS = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
@@ -73,6 +74,8 @@ class Headless(unittest.TestCase):
             missing = os.path.join(folder, "missing.off")
             with self.assertRaisesRegex(vtkhaptics.HapticsError, "missing.off: there is no such file"):
                 vtkhaptics.picture_of(missing)
+        with self.assertRaisesRegex(SurfaceError, "'': there is no such file"):
+            vtkhaptics.picture_of("")  # not the folder where it runs
 
     def run_example(self, name, *arguments, **environment):
         return subprocess.run(

@@ -164,6 +164,7 @@ def test_arguments(_):
         ("its name must end in .png", "--screenshot a.jpg", "--screenshot a.png"),
         ("its name must end in .vtp", "--trace a.csv", "--trace a.vtp"),
         ("its name must end in .csv", "--landmarks a.vtp", "--landmarks a.csv"),
+        ("is empty; give a name", "--device=", "--device mouse"),
     ):
         follow(words, parse(*bad.split()), *(parse(*options.split()) for options in good))
     needed = ["--surface", "a.stl", "--output", "a"]
@@ -541,6 +542,18 @@ def test_recordings(folder):
            "HapticInterfacePoint and Time", viewer(surface, "--device", surface), hand)
     follow("neither a device (", viewer(surface, "--device", os.path.join(folder, "none.vtp")), hand,
            viewer(surface, "--device", trace))
+
+
+def test_strokes_in_the_viewer(folder):
+    hidden = vtkhaptics.polydata(([*CORNERS, [0.0, 0.0, -0.1], [1e-4, 0.0, -0.1], [0.0, 1e-4, -0.1]],
+                                  [[0, 1, 2], [2, 3, 0], [4, 5, 6]]))
+    ghosts = numpy_to_vtk(np.array([1, 1, 0], np.uint8), deep=True)
+    ghosts.SetName("vtkGhostType")
+    hidden.GetCellData().AddArray(ghosts)
+    hidden = write_vtp(os.path.join(folder, "hidden.vtp"), hidden)
+    follow("met nothing on its way. Choose another surface, or another --device",
+           viewer(hidden, "--device", "simulated"), viewer(hidden, "--device", "mouse"),
+           viewer(write_vtp(os.path.join(folder, "round.vtp"), ball()), "--device", "simulated"))
 
 
 def test_arrays_in_the_viewer(folder):

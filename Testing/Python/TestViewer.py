@@ -342,6 +342,34 @@ def test_simulated(folder):
     assert touched.mean() > 0.3, touched.mean()
 
 
+def test_a_hand_that_meets_nothing_ends_with_the_stroke_and_says_so(folder):
+    corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, -1), (1e-3, 0, -1), (0, 1e-3, -1)]
+    plate = vtkhaptics.polydata((np.array(corners, float), [[0, 1, 2], [2, 3, 0], [4, 5, 6]]))
+    ghosts = numpy_to_vtk(np.array([1, 1, 0], np.uint8), deep=True)  # another process has these cells
+    ghosts.SetName("vtkGhostType")
+    plate.GetCellData().AddArray(ghosts)
+    trace = os.path.join(folder, "missed.vtp")
+    done = viewer(write(plate, os.path.join(folder, "plate.vtp")), "--device", "simulated",
+                  "--offscreen", "--seconds", "2", "--trace", trace)
+    assert done.returncode == 1 and "met nothing on its way" in done.stderr, done
+    assert "MaximumTicks" not in done.stderr and 1900 <= read(trace).GetNumberOfPoints() <= 2000, done
+
+
+def test_a_trace_that_is_full_says_so(folder):
+    trace = os.path.join(folder, "full.vtp")
+    shown = Viewer(parse([ball(0.0, folder), "--offscreen", "--seconds", "2", "--trace", trace]))
+    out, err = io.StringIO(), io.StringIO()
+    with redirect_stdout(out), redirect_stderr(err):
+        shown.add_surfaces()
+        shown.open()
+        assert shown.build()
+        shown.connect()
+        shown.scene.GetTraceRecorder().SetMaximumTicks(500)
+        shown.run()
+    assert out.getvalue().count("the trace is full, with 500 ticks") == 1 and not err.getvalue(), (out, err)
+    assert read(trace).GetNumberOfPoints() == 500
+
+
 def test_the_window_is_there_while_surfaces_are_built(folder):
     viewer_module.PATIENCE, viewer_module.BUILD_FRAME = 0.0, 0.001
 
@@ -440,7 +468,10 @@ def test_bad_input(folder):
         (2, "no polygons", (lines,)),
         (2, "could not be read", (empty,)),
         (2, "no such file", (os.path.join(folder, "missing.stl"),)),
-        (2, "'': there is no such file", ("",)),
+        *((2, "is empty; give a name", arguments) for arguments in (
+            ("",), *((surface, option, "") for option in (
+                "--device", "--scalars", "--stiffness-array", "--friction-array", "--firmware", "--unit", "--side",
+                "--screenshot", "--trace", "--landmarks")))),
         (2, "is a folder, and what is in it", (nothing,)),
         (2, "not known", (__file__,)),
         (2, "It has: ", (surface, "--scalars", "Hieght")),
@@ -642,6 +673,8 @@ with tempfile.TemporaryDirectory() as scratch:
         test_outputs_that_cannot_be_written_are_found_before_a_surface_is_read,
         test_a_device_that_is_homed_is_waited_for_and_says_so,
         test_simulated,
+        test_a_hand_that_meets_nothing_ends_with_the_stroke_and_says_so,
+        test_a_trace_that_is_full_says_so,
         test_what_is_gripped_moves_in_the_picture,
         test_bar_and_colours_end_at_the_largest_force,
         test_bad_input,

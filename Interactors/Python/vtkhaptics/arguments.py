@@ -34,8 +34,8 @@ few files name their length unit (glTF, DICOM, NIfTI and GIfTI do): sizes are sh
 with that of --unit, and the hand's space is fitted to them.
 
 exit status:
-  0 done; 1 the device or the servo failed, or a file could not be written; 2 wrong arguments, or a
-  surface or recording that cannot be read; 3 no display to draw with; 130, 143, 129 ended by Ctrl-C (SIGINT),
+  0 done; 1 the device or the servo failed, a simulated hand met no surface, or a file could not be written;
+  2 wrong arguments, or a surface or recording that cannot be read; 3 no display to draw with; 130, 143, 129 ended by Ctrl-C (SIGINT),
   SIGTERM or SIGHUP, with the results until then, where the surfaces had been ready
 
 where nobody reads what is printed (`| head -1`), the rest is dropped, and nothing else changes; a full disk
@@ -50,6 +50,21 @@ class ListDevices(argparse.Action):
         for name, state in list_devices():
             print(f"{name:<16}  {state}")
         parser.exit()
+
+
+def _named(text):
+    """What an option names, which a variable of a shell that is not set would leave empty."""
+    if not text:
+        raise argparse.ArgumentTypeError("is empty; give a name")
+    return text
+
+
+def make_parser(program, **texts):
+    """A parser without options, which takes no empty text for one."""
+    parser = argparse.ArgumentParser(
+        prog=f"python3 -m {program}", formatter_class=argparse.RawDescriptionHelpFormatter, **texts)
+    parser.register("type", None, _named)
+    return parser
 
 
 def add_seconds(parser, default, what):
@@ -71,12 +86,8 @@ def check_seconds(parser, options):
 
 def parse(arguments):
     """The options of a command line; exits with 2 where they are wrong."""
-    parser = argparse.ArgumentParser(
-        prog="python3 -m vtkhaptics",
-        description="Touch surfaces from files, at 1000 forces a second.",
-        epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = make_parser(
+        "vtkhaptics", description="Touch surfaces from files, at 1000 forces a second.", epilog=EPILOG)
     parser.add_argument(
         "surfaces",
         nargs="+",

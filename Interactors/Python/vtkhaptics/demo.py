@@ -4,7 +4,6 @@ The simulated device strokes the surface through the real servo thread, at 1000 
 real time. See --help.
 """
 
-import argparse
 import os
 import sys
 import time
@@ -19,7 +18,7 @@ with held_back():
     from vtkmodules.vtkRenderingCore import vtkRenderWindowInteractor
 
     from . import vtkGodObjectActor, vtkHapticScene, vtkInteractorStyleHaptic, vtkSimulatedHapticDevice
-    from .arguments import add_seconds, check_seconds
+    from .arguments import add_seconds, check_seconds, make_parser
     from .display import DisplayError, ensure_display
     from .errors import HapticsError
     from .output import OutputError, check_outputs, write_polydata
@@ -59,12 +58,11 @@ class DemoError(Exception):
 
 def parse(arguments):
     """The options of a command line; exits with 2 where they are wrong."""
-    parser = argparse.ArgumentParser(
-        prog="python3 -m vtkhaptics.demo",
-        description="Strokes a surface with a simulated haptic device in real time, draws the "
-        "trace and prints how regular the servo was.",
+    parser = make_parser(
+        "vtkhaptics.demo",
+        description="Strokes a surface with a simulated haptic device in real time, draws the trace and prints how "
+        "regular the servo was.",
         epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument(
         "--surface",

@@ -44,7 +44,7 @@ def picture_of(
     """
     with tempfile.TemporaryDirectory() as folder:
         files = [os.path.join(folder, name) for name in ("surface.vtp", "trace.vtp", "picture.png")]
-        if isinstance(surface, (str, os.PathLike)):
+        if isinstance(surface, (str, os.PathLike)) and os.fspath(surface):
             files[0] = os.path.abspath(surface)  # whose name the picture has
         else:
             write_polydata(files[0], polydata(surface))

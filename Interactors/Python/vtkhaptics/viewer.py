@@ -330,16 +330,20 @@ class Viewer:
 
     def run(self):
         """Touches until the window is closed, or off screen for a while in virtual time."""
-        self.scene.StartRecording()
+        if self.options.trace:
+            self.scene.GetTraceRecorder().AddObserver("WarningEvent", lambda *_: print(
+                f"the trace is full, with {self.scene.GetTraceRecorder().GetMaximumTicks():,} ticks, and what "
+                "comes now is not in it", flush=True))
+            self.scene.StartRecording()
         if self.options.offscreen:
             try:
-                self._step()
-            except KeyboardInterrupt:
+                has_touched = self._step()
+            finally:  # by Ctrl-C, too
                 with deferred():
                     self._finish()
-                raise
-            with deferred():
-                self._finish()
+            if self.options.device == "simulated" and not has_touched:
+                raise ViewerError(
+                    "the simulated hand met nothing on its way. Choose another surface, or another --device.")
             return
         if not self.scene.Engage():
             raise ViewerError(self.scene.GetErrorMessage())
@@ -373,6 +377,8 @@ class Viewer:
             self.error = error
 
     def _step(self):
+        """Moves the hand in virtual time; whether it has touched. Raises ViewerError."""
+        has_touched = False
         frames = int(60 * self.options.seconds)
         if self.options.device == "mouse":
             width, height = self.window.GetSize()
@@ -386,10 +392,12 @@ class Viewer:
                 self.device.MoveTo(int(width * (0.5 + 0.08 * share)), int(height * (0.5 + 0.05 * share)))
             if self.scene.Step(16) < 16:
                 raise ViewerError(self.scene.GetErrorMessage())
-        if self.options.device == "simulated":
+            has_touched |= self.scene.GetTouching()
+        if self.options.device == "simulated" and has_touched:
             # The loop's end is in the open: show the hand at work.
-            while not self.scene.GetTouching() and self.scene.Step(16) == 16 and frames < 120 * 600:
-                frames += 1
+            while frames and not self.scene.GetTouching() and self.scene.Step(16) == 16:
+                frames -= 1
+        return has_touched
 
     def _finish(self):
         self.scene.StopRecording()
