@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// What a vtkHapticScene is made of, for its source files.
@@ -55,6 +56,7 @@ public:
   bool WasTipFault = false; ///< it was reported
   int DeviceState = 0;
   vtkMTimeType LandmarksSeen = 0;
+  std::pair<double, double> LimitsSeen;     ///< largest force [N], radius of the tip [m]
   std::vector<haptics::TickRecord> Drained; // kept for its memory
   std::optional<haptics::TickRecord> Latest;
   haptics::SceneCell LatestCell;

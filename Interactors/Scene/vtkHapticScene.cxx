@@ -54,6 +54,7 @@ vtkHapticScene::vtkHapticScene()
   : Internal(std::make_unique<Internals>(*this))
 {
   this->Grip->SetHand(this->Internal.get());
+  this->Internal->LimitsSeen = { this->Servo->GetEffectiveMaximumForce(), 0.0 };
   this->FollowParts();
 }
 
@@ -463,7 +464,11 @@ bool vtkHapticScene::Update()
   {
     this->WarnOfReach(); // of what has been built or added meanwhile
   }
-  return moved || changed;
+  // Of what is drawn they have a part, however the hand rests.
+  const std::pair<double, double> limits(
+    this->Servo->GetEffectiveMaximumForce(), this->GetEffectiveTipRadius());
+  const bool isLimited = std::exchange(this->Internal->LimitsSeen, limits) != limits;
+  return moved || changed || isLimited;
 }
 
 int vtkHapticScene::Step(int n)

@@ -78,42 +78,45 @@ std::string Padded(const std::string& text, const std::string& after)
   return padded + after;
 }
 
-/// Shows text in a font of at most that size [pixel], smaller where a line would be wider than the
-/// room [pixel].
-void ShowFitting(vtkTextActor* part, const std::string& text, int size, double room, int resolution)
+/// Shows text in a font of at most that size [pixel], smaller where it would be wider or higher
+/// than the room [pixel]; its height [pixel].
+double ShowFitting(vtkTextActor* part, const std::string& text, int size, double width,
+  double height, int resolution)
 {
   std::string padded = Padded(text, "  ");
   // Of a copy: what is changed and changed back is drawn anew.
   vtkNew<vtkTextProperty> look;
   look->ShallowCopy(part->GetTextProperty());
   vtkTextRenderer* renderer = vtkTextRenderer::GetInstance();
-  const auto widthAt = [&](int fontSize)
+  int box[4] = { 0, -1, 0, -1 };
+  // How many times its room the text takes.
+  const auto excessAt = [&](int fontSize)
   {
     look->SetFontSize(fontSize);
-    int box[4];
     return renderer && !text.empty() && renderer->GetBoundingBox(look, padded, box, resolution)
-      ? box[1] - box[0] + 1
-      : 0;
+      ? std::max((box[1] - box[0] + 1) / width, (box[3] - box[2] + 1) / height)
+      : 0.0;
   };
   int fitting = size;
-  const int width = widthAt(size);
-  if (width > room)
+  const double excess = excessAt(size);
+  if (excess > 1.0)
   {
     // Letters are whole pixels wide, so that a share of the size may be more than that of the
     // width.
-    fitting = static_cast<int>(size * room / width);
-    while (fitting > LeastFontSize && widthAt(fitting) > room)
+    fitting = static_cast<int>(size / excess);
+    while (fitting > LeastFontSize && excessAt(fitting) > 1.0)
     {
       --fitting;
     }
     fitting = std::max(LeastFontSize, fitting);
-    if (widthAt(fitting) > room)
+    if (excessAt(fitting) > 1.0)
     {
       padded = Padded(text, "");
     }
   }
   part->SetInput(padded.c_str());
   part->GetTextProperty()->SetFontSize(fitting);
+  return box[3] - box[2] + 1;
 }
 }
 
@@ -248,8 +251,8 @@ void vtkHapticOverlay::Arrange(vtkViewport* viewport)
   this->NumberPart->GetTextProperty()->SetFontSize(fontSize);
   const int resolution = window ? window->GetDPI() : 72; // 72: a point is a pixel
   const double room = viewport->GetSize()[0] - 2.0 * (Margin + TextRim);
-  const auto show = [fontSize, room, resolution](vtkTextActor* part, const std::string& text)
-  { ShowFitting(part, text, fontSize, room, resolution); };
+  const auto show = [&](vtkTextActor* part, const std::string& text, double high)
+  { return this->Unit * ShowFitting(part, text, fontSize, room, high / this->Unit, resolution); };
   this->ArrangeBar();
   this->GroundPart->SetVisibility(this->ShowForce);
   this->BarPart->SetVisibility(this->ShowForce && this->Force > 0.0);
@@ -258,19 +261,24 @@ void vtkHapticOverlay::Arrange(vtkViewport* viewport)
   const double left = this->Left + (Margin + TextRim) * this->Unit;
   double above = this->Bottom + Margin * this->Unit;
   above += this->ShowForce ? 1.9 * this->Text + 6.0 * this->Unit : 0.0;
-  show(this->StatusPart, this->Status);
+  show(this->StatusPart, this->Status, height);
   this->StatusPart->SetPosition(left, above);
   this->StatusPart->SetVisibility(!this->Status.empty());
 
   above += this->Status.empty() ? 0.0 : 1.5 * this->Text + 6.0 * this->Unit;
-  show(this->ReadoutPart, this->Readout);
+  const std::string readout = this->ShowReadout ? this->Readout : "";
+  const double readoutTop = above + show(this->ReadoutPart, readout, height);
   this->ReadoutPart->SetPosition(left, above);
-  this->ReadoutPart->SetVisibility(this->ShowReadout && !this->Readout.empty());
 
   const std::string& top = this->ShowHelp ? this->Help : this->Hint;
-  show(this->HelpPart, top);
-  this->HelpPart->SetPosition(left, this->Bottom + height - (Margin + TextRim) * this->Unit);
-  this->HelpPart->SetVisibility(!top.empty());
+  const double highest = this->Bottom + height - (Margin + TextRim) * this->Unit;
+  const double topHeight = show(this->HelpPart, top, highest - above);
+  this->HelpPart->SetPosition(left, highest);
+  // Where there is no room for both, the read-out gives way to the help, and the hint to it.
+  const bool meet = !readout.empty() && !top.empty() &&
+    highest - topHeight < readoutTop + 2.0 * TextRim * this->Unit;
+  this->ReadoutPart->SetVisibility(!readout.empty() && !(meet && this->ShowHelp));
+  this->HelpPart->SetVisibility(!top.empty() && !(meet && !this->ShowHelp));
 }
 
 std::array<vtkActor2D*, 6> vtkHapticOverlay::Parts() const

@@ -6,6 +6,8 @@
  * text, for a vtkHapticScene the values at the contact; between them the status, what the hand does
  * now. At the upper left the help, a list of keys, while ShowHelp is on, else the hint, a few lines
  * for the beginning. Text has a dark ground of its own, so that it can be read over any picture.
+ * Where a view has no room for both, the read-out gives way to the help, and the hint to the
+ * read-out.
  *
  * Needs VTK::RenderingFreeType in the program for its text. Not pickable, without bounds.
  * A vtkHapticScene keeps one up to date; it can be driven by hand as well. GUI thread.

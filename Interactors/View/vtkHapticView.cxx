@@ -28,6 +28,8 @@ vtkHapticView::vtkHapticView()
 {
   this->Callback->SetClientData(this);
   this->Callback->SetCallback(vtkHapticView::OnSceneState);
+  this->ServoCallback->SetClientData(this);
+  this->ServoCallback->SetCallback(vtkHapticView::OnServo);
   this->LandmarksCallback->SetClientData(this);
   this->LandmarksCallback->SetCallback(vtkHapticView::OnLandmarks);
 }
@@ -46,6 +48,7 @@ void vtkHapticView::SetScene(vtkHapticScene* scene)
   if (this->Scene)
   {
     this->Scene->RemoveObserver(this->Callback);
+    this->Scene->GetServo()->RemoveObserver(this->ServoCallback);
     this->Scene->GetLandmarks()->RemoveObserver(this->LandmarksCallback);
   }
   this->Scene = scene;
@@ -54,6 +57,7 @@ void vtkHapticView::SetScene(vtkHapticScene* scene)
   if (scene)
   {
     scene->AddObserver(vtkHapticScene::StateEvent, this->Callback);
+    scene->GetServo()->AddObserver(vtkCommand::ModifiedEvent, this->ServoCallback);
     scene->GetLandmarks()->AddObserver(vtkCommand::ModifiedEvent, this->LandmarksCallback);
     this->Show();
   }
@@ -72,7 +76,12 @@ void vtkHapticView::OnSceneState(vtkObject*, unsigned long, void* clientData, vo
   self->Show();
 }
 
-/// Without a hand there is no new state, and they can change all the same.
+/// Without a hand there is no new state, and these can change all the same.
+void vtkHapticView::OnServo(vtkObject*, unsigned long, void* clientData, void*)
+{
+  static_cast<vtkHapticView*>(clientData)->ShowScale();
+}
+
 void vtkHapticView::OnLandmarks(vtkObject*, unsigned long, void* clientData, void*)
 {
   static_cast<vtkHapticView*>(clientData)->ShowLandmarks();

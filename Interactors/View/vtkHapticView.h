@@ -59,6 +59,7 @@ private:
 
   static void OnSceneState(
     vtkObject* caller, unsigned long event, void* clientData, void* callData);
+  static void OnServo(vtkObject* caller, unsigned long event, void* clientData, void* callData);
   static void OnLandmarks(vtkObject* caller, unsigned long event, void* clientData, void* callData);
   void ShowLandmarks();
   void ShowTrail();
@@ -69,6 +70,7 @@ private:
 
   vtkSmartPointer<vtkHapticScene> Scene;
   vtkNew<vtkCallbackCommand> Callback;
+  vtkNew<vtkCallbackCommand> ServoCallback;
   vtkNew<vtkCallbackCommand> LandmarksCallback;
   vtkSmartPointer<vtkGodObjectActor> Actor;
   vtkSmartPointer<vtkHapticOverlay> Overlay;

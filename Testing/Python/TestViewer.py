@@ -18,7 +18,7 @@ from vtkmodules.vtkFiltersSources import vtkLineSource, vtkSphereSource
 from vtkmodules.vtkIOGeometry import vtkSTLWriter
 from vtkmodules.vtkIOImage import vtkPNGReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
-from vtkmodules.vtkRenderingCore import vtkCamera
+from vtkmodules.vtkRenderingCore import vtkCamera, vtkRenderer, vtkRenderWindow
 
 import vtkhaptics
 from vtkhaptics import detail, surfaces
@@ -451,6 +451,26 @@ def test_a_scale_has_zero_where_rounding_has_left_something():
         assert [bar.GetLabelFormat() % label for label in labels] == right, (low, high, labels)
 
 
+def test_the_title_of_a_scale_has_room(folder):
+    """Above the label of the largest value, in windows of all sizes: empty rows between the two."""
+    for size in ((400, 300), (800, 600), (1200, 800)):
+        bar = scalar_bar(value_colors(-1.0, 1.0), "gyri", size)  # letters that go below the line
+        renderer, window = vtkRenderer(), vtkRenderWindow()
+        renderer.SetBackground(1.0, 1.0, 1.0)
+        renderer.AddViewProp(bar)
+        window.SetOffScreenRendering(True)
+        window.SetMultiSamples(0)
+        window.SetSize(*size)
+        window.AddRenderer(renderer)
+        path = os.path.join(folder, "scale.png")
+        save_window(window, path, scale=1)
+        colors = pixels(path).reshape(size[1], size[0], 3)
+        is_text = (np.ptp(colors, axis=2) < 40) & (colors.max(axis=2) < 200)  # and no colour of the scale
+        rows = np.flatnonzero(is_text.any(axis=1))
+        gaps = np.diff(rows)
+        assert (gaps > 6).sum() == 4, (size, rows)  # of four labels and a title
+
+
 def test_bad_input(folder):
     surface = ball(0.0, folder)
     line = vtkLineSource()
@@ -677,6 +697,7 @@ with tempfile.TemporaryDirectory() as scratch:
         test_a_trace_that_is_full_says_so,
         test_what_is_gripped_moves_in_the_picture,
         test_bar_and_colours_end_at_the_largest_force,
+        test_the_title_of_a_scale_has_room,
         test_bad_input,
         test_stl_files_hold_at_least_as_many_triangles_as_they_say,
         test_an_stl_text_may_have_a_name_in_any_letters,

@@ -15,10 +15,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <chrono>
 #include <set>
 #include <string>
 #include <thread>
+#include <vector>
 
 TEST(InteractorStyleHaptic, RendersOnlyWhenSomethingHasChanged)
 {
@@ -235,7 +237,15 @@ TEST(HapticView, BarArrowRingAndColoursEndAtTheLargestForceThatTheHandCanMeet)
   };
   hand.MoveTo(0.01);
   expect(hand.Device->GetMaximumForce());
+  hand.Scene->Update();
+  EXPECT_FALSE(hand.Scene->Update()) << "a hand at rest";
   hand.Scene->GetServo()->SetMaximumForce(1.5);
+  expect(1.5); // at once, and drawn
+  EXPECT_TRUE(hand.Scene->Update());
+  EXPECT_FALSE(hand.Scene->Update());
+  hand.Scene->SetTipRadius(0.001);
+  EXPECT_TRUE(hand.Scene->Update());
+  hand.Scene->SetTipRadius(0.0);
   hand.MoveTo(0.011);
   expect(1.5);
   actor->SetReferenceForce(0.7); // by a program for a picture of its own
@@ -340,6 +350,49 @@ TEST(HapticOverlay, AllBoxesBeginInOneColumnAndHaveRoomAroundTheirText)
     }
   }
   EXPECT_EQ(begins.size(), 1U);
+}
+
+TEST(HapticOverlay, NoTextLiesOverAnother)
+{
+  vtkNew<vtkRenderer> renderer;
+  vtkNew<vtkRenderWindow> window;
+  vtkNew<vtkHapticOverlay> overlay;
+  renderer->AddViewProp(overlay);
+  window->SetOffScreenRendering(1);
+  window->SetMultiSamples(0);
+  window->AddRenderer(renderer);
+  const auto picture =
+    [&](const std::string& readout, const std::string& help, const std::string& hint)
+  {
+    overlay->SetReadout(readout);
+    overlay->SetHelp(help);
+    overlay->SetShowHelp(!help.empty());
+    overlay->SetHint(hint);
+    window->Render();
+    vtkNew<vtkUnsignedCharArray> pixels;
+    window->GetPixelData(0, 0, window->GetSize()[0] - 1, window->GetSize()[1] - 1, 0, pixels);
+    return std::vector<unsigned char>(
+      pixels->GetPointer(0), pixels->GetPointer(0) + pixels->GetNumberOfValues());
+  };
+  overlay->SetStatus("touching");
+  const std::string readout = "table   cell 0\n0.1, -0.1, 0.2\nSulc 1\nCurvature 2";
+  const std::string line = "space held   press; move to stroke";
+  std::string keys = line;
+  for (int i = 0; i < 18; ++i) // as many as the help has
+  {
+    keys += "\n" + line;
+  }
+  for (const auto& size : { std::array<int, 2>{ 400, 300 }, { 600, 250 }, { 1200, 800 } })
+  {
+    window->SetSize(size[0], size[1]);
+    const bool hasRoom = size[1] == 800;
+    EXPECT_EQ(picture(readout, keys, "") != picture("", keys, ""), hasRoom)
+      << size[1] << " pixels: the read-out goes for the help that is asked for";
+    EXPECT_EQ(picture(readout, "", keys) != picture(readout, "", ""), hasRoom)
+      << size[1] << " pixels: the hint goes for the read-out";
+    EXPECT_NE(picture(readout, "", line), picture(readout, "", "")) << "room for a line";
+    EXPECT_NE(picture(readout, "", line), picture("", "", line)) << "room for a line";
+  }
 }
 
 TEST(HapticOverlay, NoTextIsCutOffInANarrowView)

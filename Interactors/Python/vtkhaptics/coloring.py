@@ -61,6 +61,7 @@ def scalar_bar(table, name, size=None):
     bar.SetCustomLabels(_labels(*table.GetRange()))
     bar.UseCustomLabelsOn()
     bar.SetLabelFormat("%.3g")
+    bar.SetVerticalTitleSeparation(8)
     bar.UnconstrainedFontSizeOn()
     bar.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
     if size is None:
