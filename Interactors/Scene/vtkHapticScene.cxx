@@ -464,11 +464,7 @@ bool vtkHapticScene::Update()
   {
     this->WarnOfReach(); // of what has been built or added meanwhile
   }
-  // Of what is drawn they have a part, however the hand rests.
-  const std::pair<double, double> limits(
-    this->Servo->GetEffectiveMaximumForce(), this->GetEffectiveTipRadius());
-  const bool isLimited = std::exchange(this->Internal->LimitsSeen, limits) != limits;
-  return moved || changed || isLimited;
+  return moved || changed;
 }
 
 int vtkHapticScene::Step(int n)
@@ -548,7 +544,11 @@ bool vtkHapticScene::PullState()
   this->Internal->Events.Dispatch(this);
   // After the events, so that an observer of a grip finds the actor where it was.
   const bool carried = this->Grip->Carry();
-  return changed || carried;
+  // They are drawn as well, however the hand rests.
+  const std::pair<double, double> limits(
+    this->Servo->GetEffectiveMaximumForce(), this->GetEffectiveTipRadius());
+  const bool isLimited = std::exchange(this->Internal->LimitsSeen, limits) != limits;
+  return changed || carried || isLimited;
 }
 
 void vtkHapticScene::NoticeDevice()

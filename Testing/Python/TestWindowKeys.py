@@ -85,7 +85,7 @@ def test_a_key_says_what_it_did(desktop, folder):
         file.write(PLOT)
     program = desktop.start([sys.executable, script])
     program.focus()
-    program.says("status: ")
+    program.says("status: in free space")
 
     def statuses():
         return [line for line in program.output().splitlines() if line.startswith("status: ")]
