@@ -8,7 +8,7 @@ namespace haptics
 namespace
 {
 /// About as many make gathering rare and scanning quick.
-constexpr double WantedInBall = 20.0;
+constexpr double WantedInBall = 16.0;
 /// How far ahead of the god-object a ball is centred, in radii.
 constexpr double ShareAhead = 0.9;
 /// Of the distance from the surface, a ball that is hoped to be empty after a while.
