@@ -331,6 +331,22 @@ void vtkSMHapticSceneProxy::OnRegistered(vtkObject*, unsigned long, void* inform
   {
     this->FollowView(given->Proxy);
   }
+  else if (group == this->GetXMLGroup() && given->Proxy != this)
+  {
+    this->GiveWay();
+  }
+}
+
+/// There is one hand a session: a scene that a state brings is the session's from then on.
+void vtkSMHapticSceneProxy::GiveWay()
+{
+  const vtkSmartPointer<vtkSMHapticSceneProxy> self = this; // while it is unregistered
+  vtkSMSessionProxyManager* const proxies = this->GetSessionProxyManager();
+  this->GetScene()->SetEngaged(false);
+  while (const char* name = proxies->GetProxyName(this->GetXMLGroup(), this))
+  {
+    proxies->UnRegisterProxy(this->GetXMLGroup(), std::string(name).c_str(), this);
+  }
 }
 
 void vtkSMHapticSceneProxy::UpdatePropertyInformation()

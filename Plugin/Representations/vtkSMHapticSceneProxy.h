@@ -7,7 +7,8 @@
  * that there are, as undo does where UpdateVTKObjects() is called after a change; surfaces are
  * named as the pipeline browser names their sources; the hand is shown in each view that shows a
  * surface in it, with what the servo has done until then; and while ParaView traces, each change of
- * a property becomes a line of Python, the first with all that counts.
+ * a property becomes a line of Python, the first with all that counts. Another scene that is
+ * registered in the session, by a state file, takes the place of this one, which is unregistered.
  *
  * GUI thread.
  *
@@ -58,6 +59,7 @@ private:
 
   void OnRegistered(vtkObject* caller, unsigned long event, void* information);
   void OnUnregistered(vtkObject* caller, unsigned long event, void* information);
+  void GiveWay();
   void OnConnectionLost();
   void OnViewStart(vtkObject* caller, unsigned long event, void* information);
   void FollowView(vtkSMProxy* proxy);

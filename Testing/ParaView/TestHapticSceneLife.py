@@ -1,6 +1,7 @@
 """What a haptic scene outlives, what it refuses, and what comes back from states."""
 
 import os
+import re
 import subprocess
 
 import numpy as np
@@ -300,6 +301,53 @@ output.SetPolys(polygons)
         again = trace_arrays(hand)
         for name in set(arrays) - {"Surface"}:  # ids are given anew
             np.testing.assert_array_equal(arrays[name], again[name], name)
+
+    def scenes_in(self, state):
+        """The ids of the scenes that a state saved now has, and its text."""
+        simple.SaveState(state)
+        with open(state) as file:
+            text = file.read()
+        return re.findall(r'<Proxy group="haptics" type="HapticScene" id="(\d+)"', text), text
+
+    def test_a_state_that_is_loaded_over_a_scene_takes_its_place(self):
+        self.touch(self.make("Sphere", ThetaResolution=32, PhiResolution=32))
+        self.hand.step(100)
+        file = os.path.abspath("TestHapticSceneLifeTwice.pvsm")
+        self.assertEqual(len(self.scenes_in(file)[0]), 1)
+        self.hand.engage()
+        before = self.hand
+        for _ in range(2):
+            simple.LoadState(file)
+            self.assertEqual(before.EngagedInfo, 0)
+            hand = haptics.scene()
+            self.assertNotEqual(hand.proxy.SMProxy, before.proxy.SMProxy)
+            self.assertEqual((len(hand.Surfaces), hand.View), (1, simple.GetActiveView()))
+            hand.step(1)
+            again = os.path.abspath("TestHapticSceneLifeAgain.pvsm")
+            self.assertEqual(self.scenes_in(again)[0], [hand.proxy.SMProxy.GetGlobalIDAsString()])
+            before = hand
+        self.view = None
+        self.made = []
+
+    def test_of_several_scenes_in_a_state_the_last_one_counts(self):
+        """As states had them that were saved after one was loaded over a scene."""
+        self.touch(self.make("Sphere", ThetaResolution=32, PhiResolution=32))
+        file = os.path.abspath("TestHapticSceneLifePile.pvsm")
+        (number,), text = self.scenes_in(file)
+        scene = re.search(rf'<Proxy group="haptics" type="HapticScene" id="{number}".*?</Proxy>', text, re.DOTALL)
+        dead = re.sub(rf'id="{number}', 'id="99999', scene.group())
+        for name in ("View", "Surfaces"):
+            dead = re.sub(rf'(<Property name="{name}"[^>]*>\s*)<Proxy [^>]*>', r"\1", dead)
+        item = re.search(rf'<Item id="{number}" name="HapticScene"[^>]*>', text).group()
+        text = text.replace(item, item.replace(number, "99999") + item)
+        text = text.replace(scene.group(), dead + scene.group())
+        with open(file, "w") as piled:
+            piled.write(text)
+        self.reset()
+        simple.LoadState(file)
+        hand = haptics.scene()
+        hand.step(1)
+        self.assertEqual(len(self.scenes_in(file)[0]), 1)
 
     def test_a_process_that_ends_while_engaged_ends_well(self):
         script = (

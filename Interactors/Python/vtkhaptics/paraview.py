@@ -402,7 +402,7 @@ def state_lines(with_hidden=True):
 
     with_hidden: also where what is touched is hidden, which ParaView leaves out of a state unless asked.
     """
-    proxy = servermanager.ProxyManager().GetProxy("haptics", "HapticScene")
+    proxy = _registered()
     if not proxy:
         return []
     hand = Scene(servermanager._getPyProxy(proxy))
@@ -500,11 +500,18 @@ def _source(record, name):
     )
 
 
+def _registered():
+    """The proxy of this session's scene, under whatever name a state has brought it; None where there is none."""
+    manager = servermanager.ProxyManager()
+    name = manager.GetProxyName("haptics", 0)
+    return manager.GetProxy("haptics", name) if name else None
+
+
 def scene():
-    """The scene of this session; made if there is none yet."""
+    """The scene of this session; made if there is none yet. A state that is loaded brings another one."""
     load_plugin()
     manager = servermanager.ProxyManager()
-    proxy = manager.GetProxy("haptics", "HapticScene")
+    proxy = _registered()
     if not proxy:
         proxy = servermanager._getPyProxy(manager.NewProxy("haptics", "HapticScene"))
         proxy.UpdateVTKObjects()

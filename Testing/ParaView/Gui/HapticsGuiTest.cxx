@@ -7,6 +7,7 @@
 #include "pqCoreTestUtility.h"
 #include "pqDataRepresentation.h"
 #include "pqFiltersMenuReaction.h"
+#include "pqLoadStateReaction.h"
 #include "pqObjectBuilder.h"
 #include "pqPipelineSource.h"
 #include "pqServer.h"
@@ -34,6 +35,7 @@
 #include <QLabel>
 #include <QProgressBar>
 #include <QTableWidget>
+#include <QTemporaryDir>
 #include <QTest>
 #include <QTimer>
 #include <QToolBar>
@@ -46,6 +48,12 @@ using namespace GuiTest;
 
 namespace
 {
+/// As a user does, in the panel.
+void setStiffness(double value)
+{
+  find<QDoubleSpinBox>("stiffness")->setValue(value);
+}
+
 // What ParaView's own tests allow: antialiasing and text differ between drivers.
 constexpr double ImageThreshold = 20.0;
 
@@ -373,6 +381,51 @@ void HapticsGuiTest::resettingTheSessionReleasesTheHand()
   QVERIFY(waitUntil([] { return pqActiveObjects::instance().activeServer() != nullptr; }));
   QVERIFY(waitUntil([] { return !touchIsDown(); }));
   QVERIFY(!engaged());
+}
+
+void HapticsGuiTest::aStateTakesThePlaceOfTheScene()
+{
+  makeWaveletContour();
+  pressTouch();
+  setStiffness(640.0);
+  QTemporaryDir folder;
+  pqApplicationCore* const application = pqApplicationCore::instance();
+  const QString state = folder.filePath("touched.pvsm");
+  const auto numberOfScenes = [&]
+  {
+    const QString file = folder.filePath("again.pvsm");
+    application->saveState(file);
+    QFile saved(file);
+    return saved.open(QIODevice::ReadOnly) ? saved.readAll().count("type=\"HapticScene\"") : -1;
+  };
+  application->saveState(state);
+  setStiffness(700.0);
+  for (int i = 0; i < 2; ++i)
+  {
+    QVERIFY(press());
+    const vtkSMProxy* const before = scene();
+    pqLoadStateReaction::loadState(state, true);
+    QVERIFY(waitUntil([] { return pqActiveObjects::instance().activeView() != nullptr; }));
+    QVERIFY(waitUntil([] { return !touchIsDown(); }));
+    QVERIFY(scene() && scene() != before);
+    QVERIFY(!engaged());
+    // State, panel and view speak of the same scene.
+    QCOMPARE(numberOfScenes(), 1);
+    QCOMPARE(vtkSMPropertyHelper(scene(), "Stiffness").GetAsDouble(), 640.0);
+    QCOMPARE(find<QDoubleSpinBox>("stiffness")->value(), 640.0);
+    QCOMPARE(vtkSMPropertyHelper(scene(), "View").GetAsProxy(),
+      pqActiveObjects::instance().activeView()->getProxy());
+    findAction("actionHapticEngage")->trigger();
+    QVERIFY(engaged());
+    pqUndoStack* const stack = application->getUndoStack();
+    setStiffness(720.0);
+    stack->undo();
+    QCOMPARE(vtkSMPropertyHelper(scene(), "Stiffness").GetAsDouble(), 640.0);
+    stack->redo();
+    QCOMPARE(find<QDoubleSpinBox>("stiffness")->value(), 720.0);
+    QCOMPARE(numberOfScenes(), 1);
+  }
+  setStiffness(500.0); // which other tests begin with
 }
 
 void HapticsGuiTest::undoTakesTouchBack()

@@ -23,6 +23,7 @@ private Q_SLOTS:
   void closingTheViewReleasesTheHand();
   void deletingTheTouchedSourceLeavesFreeSpace();
   void resettingTheSessionReleasesTheHand();
+  void aStateTakesThePlaceOfTheScene();
   void undoTakesTouchBack();
   void undoTakesTheFilterBack();
   void aDeviceThatIsNotThereIsReported();
