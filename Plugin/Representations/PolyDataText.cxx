@@ -1,7 +1,12 @@
 #include "PolyDataText.h"
 
+#include "TextCheck.h"
 #include "vtkAbstractArray.h"
+#include "vtkCallbackCommand.h"
+#include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkCommand.h"
+#include "vtkDataArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
@@ -41,14 +46,19 @@ std::string Decoded(const std::string& text)
   return vtksys::SystemTools::DecodeURL(text);
 }
 
-/// Gives arrays other names; what another one has as well is copied.
+/// Gives arrays other names; what another one has as well is copied. Those without a name are left
+/// out: the writer would make one up, another each time.
 void RenameArrays(vtkDataSetAttributes* data, std::string (*renamed)(const std::string&))
 {
   vtkNew<vtkDataSetAttributes> result;
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
     vtkSmartPointer<vtkAbstractArray> array = data->GetAbstractArray(i);
-    const std::string name = array->GetName() ? array->GetName() : "";
+    if (!array->GetName())
+    {
+      continue;
+    }
+    const std::string name = array->GetName();
     const std::string other = renamed(name);
     if (other != name)
     {
@@ -71,6 +81,26 @@ void RenameArrays(vtkPolyData* data, std::string (*renamed)(const std::string&))
   RenameArrays(data->GetPointData(), renamed);
   RenameArrays(data->GetCellData(), renamed);
 }
+
+/// Whether all corners are points that there are.
+bool HasSoundCells(vtkPolyData* data)
+{
+  for (vtkCellArray* cells :
+    { data->GetVerts(), data->GetLines(), data->GetPolys(), data->GetStrips() })
+  {
+    double range[2] = { 0.0, -1.0 };
+    if (cells->GetNumberOfConnectivityIds() > 0)
+    {
+      cells->GetConnectivityArray()->GetRange(range, 0);
+    }
+    const bool isSound = cells->GetNumberOfCells() == 0 || cells->IsValid();
+    if (!isSound || range[0] < 0.0 || range[1] >= static_cast<double>(data->GetNumberOfPoints()))
+    {
+      return false;
+    }
+  }
+  return true;
+}
 }
 
 std::string ToText(vtkPolyData* data)
@@ -83,17 +113,34 @@ std::string ToText(vtkPolyData* data)
   writer->SetDataModeToBinary(); // base64: no byte that a property or XML could not hold
   writer->WriteToOutputStringOn();
   writer->Write();
-  return writer->GetOutputString();
+  return WithCheck(writer->GetOutputString());
 }
 
 bool FromText(const std::string& text, vtkPolyData* data)
 {
+  data->Initialize();
+  const vtkNew<vtkCallbackCommand> failure; // the caller says what is wrong
+  bool hasFailed = false;
+  failure->SetClientData(&hasFailed);
+  failure->SetCallback(
+    [](vtkObject*, unsigned long, void* flag, void*) { *static_cast<bool*>(flag) = true; });
+  if (!IsWhole(text))
+  {
+    return false;
+  }
   vtkNew<vtkXMLPolyDataReader> reader;
+  reader->AddObserver(vtkCommand::ErrorEvent, failure);
+  reader->SetParserErrorObserver(failure);
   reader->ReadFromInputStringOn();
   reader->SetInputString(text);
   reader->Update();
-  data->ShallowCopy(reader->GetOutput());
+  vtkPolyData* const read = reader->GetOutput();
+  if (hasFailed || reader->GetErrorCode() != 0 || !HasSoundCells(read))
+  {
+    return false;
+  }
+  data->ShallowCopy(read);
   RenameArrays(data, &Decoded);
-  return reader->GetErrorCode() == 0;
+  return true;
 }
 }

@@ -143,7 +143,8 @@ int vtkHapticRecordSource::RequestData(
   vtkNew<vtkPolyData> record;
   if (!haptics::FromText(this->Contents, record))
   {
-    vtkErrorMacro("The contents are no polydata. Give what MakeContents() makes.");
+    vtkErrorMacro(
+      "The contents are no polydata, or were cut or changed. Give what MakeContents() makes.");
     return 0;
   }
   vtkPolyData::GetData(outputVector)->ShallowCopy(record);

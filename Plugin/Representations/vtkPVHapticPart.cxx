@@ -16,6 +16,12 @@ void vtkPVHapticPart::Fail()
   this->InvokeEvent(vtkPVHapticPart::FailEvent, const_cast<char*>(this->Scene->GetErrorMessage()));
 }
 
+void vtkPVHapticPart::Fail(const std::string& message)
+{
+  vtkErrorMacro(<< message);
+  this->InvokeEvent(vtkPVHapticPart::FailEvent, const_cast<char*>(message.c_str()));
+}
+
 void vtkPVHapticPart::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);

@@ -50,6 +50,8 @@ protected:
 
   /** Passes on what the scene has reported. */
   void Fail();
+  /** Reports what is wrong. */
+  void Fail(const std::string& message);
 
   vtkWeakPointer<vtkHapticScene> Scene;
   haptics::RepresentedSurfaces* Surfaces = nullptr; // as long as the scene is there

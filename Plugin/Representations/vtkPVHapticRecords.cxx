@@ -2,12 +2,14 @@
 
 #include "PolyDataText.h"
 #include "RepresentedSurfaces.h"
+#include "vtkCallbackCommand.h"
 #include "vtkHapticLandmarks.h"
 #include "vtkHapticScene.h"
 #include "vtkHapticServo.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
 
 #include <algorithm>
 
@@ -16,20 +18,41 @@ vtkStandardNewMacro(vtkPVHapticRecords);
 namespace
 {
 const std::string EndOfText = "</VTKFile>";
+constexpr const char* Space = " \t\r\n";
 
-/// Of several texts behind each other.
+/// Of several texts behind each other, the last of which may be cut.
 std::vector<std::string> Split(const std::string& contents)
 {
   std::vector<std::string> texts;
-  std::size_t begin = 0;
-  for (std::size_t end = contents.find(EndOfText); end != std::string::npos;
-       end = contents.find(EndOfText, begin))
+  std::size_t begin = contents.find_first_not_of(Space);
+  while (begin < contents.size())
   {
-    end += EndOfText.size();
+    std::size_t end = contents.find(EndOfText, begin);
+    end = end == std::string::npos ? contents.size() : end + EndOfText.size();
     texts.push_back(contents.substr(begin, end - begin) + "\n");
-    begin = std::min(contents.find('<', end), contents.size());
+    begin = contents.find_first_not_of(Space, end);
   }
   return texts;
+}
+
+/// Makes records of texts from the `first` on; what is wrong with one, else empty.
+std::string Read(const std::vector<std::string>& texts, std::size_t first,
+  std::vector<vtkSmartPointer<vtkPolyData>>& records)
+{
+  vtkNew<vtkHapticLandmarks> trial;
+  trial->AddObserver(vtkCommand::ErrorEvent, vtkNew<vtkCallbackCommand>()); // said here
+  for (std::size_t i = first; i < texts.size(); ++i)
+  {
+    const auto record = vtkSmartPointer<vtkPolyData>::New();
+    if (!haptics::FromText(texts[i], record) || trial->Add(record) < 0)
+    {
+      return "Landmark " + std::to_string(i + 1) + " of " + std::to_string(texts.size()) +
+        " in LandmarkContents cannot be read: the text was cut or changed. All landmarks stay as "
+        "they were. Give the text as it was saved, or load another state.";
+    }
+    records.push_back(record);
+  }
+  return {};
 }
 }
 
@@ -137,16 +160,27 @@ void vtkPVHapticRecords::SetLandmarkContents(const char* contents)
   {
     ++kept;
   }
+  std::vector<vtkSmartPointer<vtkPolyData>> records;
+  const std::string problem = Read(wanted, kept, records);
+  if (!problem.empty())
+  {
+    this->Fail(problem);
+    return;
+  }
   for (std::size_t i = kept; i < there.size(); ++i)
   {
     landmarks->Undo();
   }
-  for (std::size_t i = kept; i < wanted.size(); ++i)
+  for (const vtkSmartPointer<vtkPolyData>& record : records)
   {
-    vtkNew<vtkPolyData> record;
-    haptics::FromText(wanted[i], record);
-    landmarks->Add(record); // says so where it is none
+    landmarks->Add(record);
   }
+}
+
+std::string vtkPVHapticRecords::GetProblemOf(const char* contents)
+{
+  std::vector<vtkSmartPointer<vtkPolyData>> records;
+  return Read(Split(contents ? contents : ""), 0, records);
 }
 
 void vtkPVHapticRecords::SetLandmarkDistance(int distance)

@@ -41,11 +41,14 @@ public:
   ///@{
   /**
    * All landmarks as a text, for state files and undo. One that is set takes their place, but those
-   * at its beginning that are there already stay. An error for what is no landmark in it.
+   * at its beginning that are there already stay. Where any of it is no landmark, because it was
+   * cut or changed, all stay as they were, and an error says which.
    */
   void SetLandmarkContents(const char* contents);
   std::string GetLandmarkContents();
   ///@}
+  /** That error for a text; empty where it is good. */
+  static std::string GetProblemOf(const char* contents);
   /**
    * The distance to the one before that is written next to each, a
    * vtkHapticLandmarks::DistanceType. Default straight.

@@ -136,6 +136,18 @@ class TestHapticRemedies(SceneTest):
                         lambda: (self.hand.set(Device=path), self.hand.step(10)))
         self.assertEqual(self.hand.Message, "")
 
+    def test_landmarks(self):
+        self.touch(self.make("Sphere"))
+        self.hand.step(200)
+        while not self.hand.Touching:
+            self.hand.step(50)
+        self.hand.drop_landmark()
+        saved = self.hand.LandmarkContents
+        self.follow("Give the text as it was saved, or load another state",
+                    lambda: self.hand.set(LandmarkContents=saved[:-30]),
+                    lambda: self.hand.set(LandmarkContents=saved))
+        self.assertEqual((self.hand.NumberOfLandmarks, self.hand.Message), (1, ""))
+
 
 if __name__ == "__main__":
     main()

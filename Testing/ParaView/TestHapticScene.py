@@ -1,6 +1,7 @@
 """Touches what a render view shows, in virtual time: what can be touched, and what follows."""
 
 import math
+import re
 import time
 
 import numpy as np
@@ -349,6 +350,71 @@ self.GetOutput().ShallowCopy(sphere.GetOutput())"""
         self.made.append(source)
         source.UpdatePipeline()
         self.assertIn(name, source.PointData.keys())
+        self.hand.proxy.InvokeCommand("ClearLandmarks")
+
+    def test_landmarks_are_kept_where_their_text_was_cut_or_changed(self):
+        self.touch(self.make("Sphere", ThetaResolution=48, PhiResolution=48))
+        self.step_to_contact(1500)
+        self.hand.drop_landmark()
+        self.hand.drop_landmark()
+        contents = self.hand.LandmarkContents
+        first, end = contents.index("<VTKFile"), contents.index("</VTKFile>")
+        older = re.sub(' check="[0-9a-f]*"', "", contents)  # as earlier versions wrote it
+        self.assertNotEqual(older, contents)
+        self.hand.LandmarkContents = ""
+        self.hand.LandmarkContents = older
+        self.assertEqual(self.hand.NumberOfLandmarks, 2)
+        self.hand.step(1)
+        contents = self.hand.LandmarkContents
+        width = 16 if "UInt64" in older else 8  # of a number, in bytes and a half of base64
+        damaged = {
+            "garbage": 1, "</VTKFile>": 1, "<x></VTKFile>": 1, contents[:first]: 1, contents[: end // 2]: 1,
+            contents[:-20]: 2, contents[: end // 2] + contents[end // 2 + 4:]: 1,
+            older.replace("AQAA", "AAAA"): 1, older.replace("AQAA", "zzzz"): 1, older.replace("AQAA", "AQAA" + "z" * width): 1,
+            older.replace(' type="Float64"', ""): 1, older.replace('NumberOfVerts="1"', 'NumberOfVerts="99999999999"'): 1,
+            older.replace('NumberOfTuples="1"', 'NumberOfTuples="99999999999"'): 1,
+            older.replace('NumberOfTuples="1"', 'NumberOfTuples="-1"'): 1,
+        }
+        for text, number in damaged.items():
+            with self.subTest(text=text[:200]):
+                with self.assertRaisesRegex(haptics.HapticsError, f"Landmark {number} of . in LandmarkContents"):
+                    self.hand.LandmarkContents = text
+                self.hand.step(1)
+                self.assertEqual(self.hand.Message, "")
+                self.hand.proxy.LandmarkContents = text  # as a state does
+                self.assertRegex(self.hand.Message, f"^Landmark {number} of . in LandmarkContents cannot be read")
+                self.assertEqual((self.hand.NumberOfLandmarks, self.hand.LandmarkContents), (2, contents))
+                source = self.make("HapticRecord", Contents=text)
+                source.UpdatePipeline()
+                points = source.GetDataInformation().GetNumberOfPoints()
+                self.assertEqual(points, 0)
+        self.hand.proxy.InvokeCommand("ClearLandmarks")
+
+    def test_a_landmark_comes_back_without_arrays_that_have_no_name(self):
+        script = """
+from vtkmodules.vtkCommonCore import vtkFloatArray
+output.ShallowCopy(inputs[0].VTKObject)
+for data in (output.VTKObject.GetPointData(), output.VTKObject.GetCellData()):
+    count = data.GetArray(0).GetNumberOfTuples() if data.GetArray(0) else output.VTKObject.GetNumberOfCells()
+    array = vtkFloatArray()
+    array.SetNumberOfTuples(count)
+    array.Fill(3.0)
+    data.AddArray(array)
+"""
+        sphere = self.make("Sphere", ThetaResolution=48, PhiResolution=48)
+        self.touch(self.make("ProgrammableFilter", Input=sphere, Script=script))
+        self.step_to_contact(1500)
+        self.hand.drop_landmark()
+
+        def names():
+            values = self.hand.vtk.GetLandmarks().GetLandmark(0).GetPointValues()
+            return [values.GetArrayName(i) for i in range(values.GetNumberOfArrays())]
+
+        self.assertIn(None, names())
+        contents, named = self.hand.LandmarkContents, [name for name in names() if name]
+        self.hand.LandmarkContents = ""
+        self.hand.LandmarkContents = contents
+        self.assertEqual((self.hand.NumberOfLandmarks, names()), (1, named))
         self.hand.proxy.InvokeCommand("ClearLandmarks")
 
     def test_in_free_space_no_landmark_is_dropped(self):

@@ -101,6 +101,8 @@ class Scene:
             if name == "Device":
                 _check_device(value)
             _check_value(name, prop, value)
+            if name == "LandmarkContents":
+                _check_landmarks(value)
             setattr(self.proxy, name, value)
             if name == "WorkspaceTransform" and any(value) and list(self.WorkspaceTransform) != list(value):
                 raise ValueError(f"{name}: {self.Message}")
@@ -258,6 +260,14 @@ def _check_device(name):
         raise HapticsError(
             f"'{name}' is neither a device nor a file with a recording or a path. {problem}"
         )
+
+
+def _check_landmarks(contents):
+    from .vtkHapticsRepresentations import vtkPVHapticRecords
+
+    problem = vtkPVHapticRecords.GetProblemOf(contents)
+    if problem:
+        raise HapticsError(problem)
 
 
 def _choices(prop):
