@@ -132,16 +132,10 @@ pqHapticsManager::pqHapticsManager(QObject* parent)
     &pqServerManagerModel::modifiedStateChanged, this, &pqHapticsManager::choiceChanged);
   this->connect(this, &pqHapticsManager::engagedChanged, this, &pqHapticsManager::choiceChanged);
 
-  if (pqUndoStack* const stack = pqApplicationCore::instance()->getUndoStack())
-  {
-    const auto follow = [this]
-    {
-      this->Landmarks = this->numberOfLandmarks(); // undo has changed them itself
-      this->poll();
-    };
-    this->connect(stack, &pqUndoStack::undone, this, follow);
-    this->connect(stack, &pqUndoStack::redone, this, follow);
-  }
+  // The one that there is later, where this plugin is loaded before the main window is there.
+  this->connect(pqApplicationCore::instance(), &pqApplicationCore::undoStackChanged, this,
+    &pqHapticsManager::followUndo);
+  this->followUndo(pqApplicationCore::instance()->getUndoStack());
 
   // A state file or a script may bring a scene, or take it away.
   pqServerManagerObserver* observer = pqApplicationCore::instance()->getServerManagerObserver();
@@ -166,6 +160,20 @@ pqHapticsManager::pqHapticsManager(QObject* parent)
   this->connect(&pqActiveObjects::instance(), &pqActiveObjects::serverChanged, this,
     [this](pqServer*) { this->findScene(); });
   this->findScene();
+}
+
+void pqHapticsManager::followUndo(pqUndoStack* stack)
+{
+  const auto follow = [this]
+  {
+    this->Landmarks = this->numberOfLandmarks(); // undo has changed them itself
+    this->poll();
+  };
+  if (stack)
+  {
+    this->connect(stack, &pqUndoStack::undone, this, follow);
+    this->connect(stack, &pqUndoStack::redone, this, follow);
+  }
 }
 
 vtkSMProxy* pqHapticsManager::scene() const

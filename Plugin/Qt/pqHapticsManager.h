@@ -32,6 +32,7 @@
 class pqHapticsPen;
 class pqHapticsRecorder;
 class pqOutputPort;
+class pqUndoStack;
 class pqView;
 class QWidget;
 class vtkHapticScene;
@@ -129,6 +130,7 @@ private:
   Q_DISABLE_COPY(pqHapticsManager)
   explicit pqHapticsManager(QObject* parent);
 
+  void followUndo(pqUndoStack* stack);
   void adoptScene(vtkSMProxy* proxy);
   void findScene();
   bool followActiveView();

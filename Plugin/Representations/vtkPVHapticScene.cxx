@@ -62,7 +62,14 @@ public:
     }
   }
   std::string ReleasedBecause; // by what the user did with sources and views
-  bool HasTouched = false;     // the hint is not needed any more
+  void EndReason(const char* reason)
+  {
+    if (this->ReleasedBecause == reason)
+    {
+      this->ReleasedBecause.clear();
+    }
+  }
+  bool HasTouched = false; // the hint is not needed any more
   std::string State;
   std::string ShownState;
 
@@ -100,6 +107,10 @@ vtkStandardNewMacro(vtkPVHapticScene);
 
 namespace
 {
+// Why a hand was released, as long as it is so.
+constexpr const char* NothingLeft = "nothing is left to touch";
+constexpr const char* NoView = "there is no view to touch in";
+
 constexpr const char* MouseHint = "Move the mouse over the surface.\n"
                                   "Hold the space bar to press,\n"
                                   "and move to stroke.\n"
@@ -234,7 +245,7 @@ void vtkPVHapticScene::SetView(vtkObject* object)
   }
   else
   {
-    this->ReleaseBecause("there is no view to touch in");
+    this->ReleaseBecause(NoView);
   }
   if (self.View)
   {
@@ -249,6 +260,7 @@ void vtkPVHapticScene::SetView(vtkObject* object)
   self.Workspace->Forget(); // another view looks elsewhere
   if (view)
   {
+    self.EndReason(NoView);
     this->ShowHand();
     self.ViewObserver =
       view->AddObserver(vtkCommand::DeleteEvent, this, &vtkPVHapticScene::OnViewDeleted);
@@ -274,6 +286,7 @@ void vtkPVHapticScene::AddSurface(vtkObject* representation)
     return;
   }
   this->Internal->EndMessageOf(Internals::Topic::Choice);
+  this->Internal->EndReason(NothingLeft);
   this->Modified();
 }
 
@@ -482,7 +495,7 @@ bool vtkPVHapticScene::Update()
   this->Internal->Surfaces.Sync();
   if (self.Surfaces.Size() == 0)
   {
-    this->ReleaseBecause("nothing is left to touch");
+    this->ReleaseBecause(NothingLeft);
   }
   const bool wasEngaged = self.Scene->IsEngaged();
   bool changed = self.Scene->Update();

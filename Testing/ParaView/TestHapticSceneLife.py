@@ -36,6 +36,8 @@ class TestHapticSceneLife(SceneTest):
         self.assert_released("nothing is left to touch")
         self.assertEqual(len(self.hand.Surfaces), 0)
         simple.Render(self.view)
+        self.touch(self.make("Sphere"))
+        self.assertEqual(self.hand.State, "Released")  # what was left is not what is there now
 
     def test_one_of_two_sources_deleted_leaves_the_other(self):
         self.engage()

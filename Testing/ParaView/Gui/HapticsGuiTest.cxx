@@ -444,6 +444,24 @@ void HapticsGuiTest::undoTakesTouchBack()
   QVERIFY(!engaged()); // a device starts only when a user says so
 }
 
+void HapticsGuiTest::undoOfTouchReleasesAndSaysWhyAsLongAsItIsSo()
+{
+  makeWaveletContour();
+  pressTouch();
+  QVERIFY(engaged());
+  pqUndoStack* stack = pqApplicationCore::instance()->getUndoStack();
+  const auto state = [] { return find<QLabel>("state")->text(); };
+  QVERIFY(press());
+  QCOMPARE(stack->undoLabel(), QString("Touch"));
+  stack->undo();
+  QVERIFY(!isTouchable());
+  QVERIFY(waitUntil([] { return !engaged(); }));
+  QCOMPARE(state(), QString("Released: nothing is left to touch"));
+  stack->redo();
+  QVERIFY(isTouchable());
+  QCOMPARE(state(), QString("Released"));
+}
+
 void HapticsGuiTest::undoTakesTheFilterBack()
 {
   makeWaveletContour();

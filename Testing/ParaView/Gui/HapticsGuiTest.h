@@ -25,6 +25,7 @@ private Q_SLOTS:
   void resettingTheSessionReleasesTheHand();
   void aStateTakesThePlaceOfTheScene();
   void undoTakesTouchBack();
+  void undoOfTouchReleasesAndSaysWhyAsLongAsItIsSo();
   void undoTakesTheFilterBack();
   void aDeviceThatIsNotThereIsReported();
   void findingDevicesShowsTheirStates();
