@@ -3,6 +3,8 @@
 #include "PythonStates.h"
 #include "vtkCollection.h"
 #include "vtkCommand.h"
+#include "vtkHapticLandmarks.h"
+#include "vtkHapticScene.h"
 #include "vtkHapticSurfaceRepresentation.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVHapticPicture.h"
@@ -174,6 +176,10 @@ void vtkSMHapticSceneProxy::OnConnectionLost()
 void vtkSMHapticSceneProxy::OnPropertyModified(vtkObject*, unsigned long, void* name)
 {
   vtkSMProperty* property = name ? this->GetProperty(static_cast<const char*>(name)) : nullptr;
+  if (property && property == this->GetProperty(Landmarks))
+  {
+    this->LandmarksTime = 0; // who has set it may be refused
+  }
   // A trace would have all landmarks again with each.
   const bool isTraced =
     property && !property->GetInformationOnly() && property != this->GetProperty(Landmarks);
@@ -356,6 +362,23 @@ void vtkSMHapticSceneProxy::UpdatePropertyInformation()
   this->Superclass::UpdatePropertyInformation();
 }
 
+/// Of one alone: to make a text of all landmarks takes a while.
+void vtkSMHapticSceneProxy::UpdatePropertyInformation(vtkSMProperty* property)
+{
+  if (property && property == this->GetProperty("WorkspaceTransform"))
+  {
+    this->SyncWorkspace();
+  }
+  else if (property && property == this->GetProperty(Landmarks))
+  {
+    this->SyncLandmarks();
+  }
+  else
+  {
+    this->Superclass::UpdatePropertyInformation(property);
+  }
+}
+
 /// Fit(), the clutch, another device or view change the transform without this proxy's doing.
 void vtkSMHapticSceneProxy::SyncWorkspace()
 {
@@ -371,11 +394,14 @@ void vtkSMHapticSceneProxy::SyncWorkspace()
 /// They are dropped by commands, and by the device's button.
 void vtkSMHapticSceneProxy::SyncLandmarks()
 {
-  if (vtkPVHapticScene* scene = this->GetScene())
+  vtkPVHapticScene* const scene = this->GetScene();
+  vtkHapticLandmarks* const landmarks = scene ? scene->GetScene()->GetLandmarks() : nullptr;
+  if (landmarks && this->LandmarksTime != landmarks->GetMTime())
   {
     const std::string contents = scene->GetRecords()->GetLandmarkContents();
     vtkSMPropertyHelper(this, Landmarks).Set(contents.c_str());
     this->UpdateProperty(Landmarks); // they are there already
+    this->LandmarksTime = landmarks->GetMTime();
   }
 }
 

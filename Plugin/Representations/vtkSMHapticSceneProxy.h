@@ -42,8 +42,8 @@ public:
   void TakeSettings(vtkSMProxy* settings);
 
   void UpdateVTKObjects() override;
-  using vtkSMProxy::UpdatePropertyInformation;
   void UpdatePropertyInformation() override;
+  void UpdatePropertyInformation(vtkSMProperty* property) override;
   using vtkSMProxy::SaveXMLState;
   vtkPVXMLElement* SaveXMLState(vtkPVXMLElement* root, vtkSMPropertyIterator* iterator) override;
 
@@ -73,6 +73,7 @@ private:
   void Trace();
 
   std::set<std::string> Untraced; // properties that have changed since the last update
+  vtkMTimeType LandmarksTime = 0; // when they were as their property says
   std::vector<vtkWeakPointer<vtkSMProxy>> Views; // whose renders are followed
   vtkWeakPointer<vtkSMTrace> TracedTo;           // the tracer that imports what the lines need
 };

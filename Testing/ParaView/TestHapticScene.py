@@ -390,6 +390,23 @@ self.GetOutput().ShallowCopy(sphere.GetOutput())"""
                 self.assertEqual(points, 0)
         self.hand.proxy.InvokeCommand("ClearLandmarks")
 
+    def test_a_text_of_landmarks_that_move_is_made_only_where_it_is_asked_for(self):
+        display = self.touch(self.make("Sphere", ThetaResolution=48, PhiResolution=48))
+        self.step_to_contact(1500)
+        self.hand.drop_landmark()
+        held = self.hand.proxy.SMProxy.GetProperty("LandmarkContents")
+        before = self.hand.LandmarkContents
+        display.Position = [0.5, 0.0, 0.0]
+        display.SMProxy.UpdateVTKObjects()
+        self.hand.update()
+        self.assertEqual((len(self.hand.WorkspaceTransform), self.hand.NumberOfLandmarks), (16, 1))
+        self.assertEqual(held.GetElement(0), before)
+        self.assertNotEqual(self.hand.LandmarkContents, before)
+        self.assertEqual(held.GetElement(0), self.hand.LandmarkContents)
+        self.hand.proxy.LandmarkContents = "garbage"  # refused, the property has what is there
+        self.assertEqual(held.GetElement(0), self.hand.LandmarkContents)
+        self.hand.proxy.InvokeCommand("ClearLandmarks")
+
     def test_a_landmark_comes_back_without_arrays_that_have_no_name(self):
         script = """
 from vtkmodules.vtkCommonCore import vtkFloatArray

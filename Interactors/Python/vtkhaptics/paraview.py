@@ -73,9 +73,8 @@ class Scene:
         prop = self.proxy.SMProxy.GetProperty(name)
         if not prop:
             raise AttributeError(f"a haptic scene has no {name}")
-        if name in ("WorkspaceTransform", "LandmarkContents"):
-            self.proxy.SMProxy.UpdatePropertyInformation()  # fitting, the clutch and touch change it
-        elif prop.GetInformationOnly():
+        # Fitting, the clutch and touch change those two.
+        if name in ("WorkspaceTransform", "LandmarkContents") or prop.GetInformationOnly():
             self.proxy.SMProxy.UpdatePropertyInformation(prop)
         return getattr(self.proxy, name)
 
