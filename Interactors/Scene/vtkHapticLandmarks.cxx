@@ -124,31 +124,78 @@ struct vtkHapticLandmarks::Landmark
     return this->Where.Pose.VectorToWorld(normal);
   }
 
-  /// Whether it was dropped on a surface like this.
+  /// Where the point of its triangle is in a snapshot.
+  haptics::Vec3 PlaceIn(const haptics::TriangleSurface& surface) const
+  {
+    const haptics::Triangle& corners =
+      surface.Triangles()[static_cast<std::size_t>(this->Where.Triangle)];
+    haptics::Vec3 local{};
+    for (int i = 0; i < 3; ++i)
+    {
+      const auto along = [&](int k) {
+        return this->Where.Weights[k] * surface.Points()[static_cast<std::size_t>(corners[k])][i];
+      };
+      local[i] = surface.Origin()[i] + (along(0) + along(1) + along(2));
+    }
+    return local;
+  }
+
+  /// Whether it was dropped on a surface with these triangles.
   bool IsOf(const haptics::HapticSurface& surface) const
   {
     const auto touched = surface.TouchableSurface();
     const auto triangle = static_cast<std::size_t>(this->Where.Triangle);
     const auto& cells = surface.OriginalCellIds();
-    return touched && surface.Name == this->Name && triangle < touched->Triangles().size() &&
+    return touched && triangle < touched->Triangles().size() &&
       static_cast<vtkIdType>(touched->Triangles().size()) == this->Touched.Triangles &&
       touched->Triangles()[triangle] == this->Touched.Corners &&
       (!cells || (triangle < cells->size() && (*cells)[triangle] == this->Probe->GetCell()));
   }
 
-  /// Looks for its surface, where it came out of a record. Whether it has one.
+  /// Whether it lies on such a surface, where that is now.
+  bool LiesOn(const haptics::HapticSurface& surface) const
+  {
+    constexpr double rounding = 1e-6; // of single precision, in which data may be kept
+    if (!this->IsOf(surface))
+    {
+      return false;
+    }
+    const haptics::Vec3 place =
+      surface.Pose().PointToWorld(this->PlaceIn(*surface.TouchableSurface()));
+    return std::sqrt(vtkMath::Distance2BetweenPoints(place.data(), this->Position.data())) <=
+      rounding * vtkMath::Norm(this->Position.data());
+  }
+
+  /// Looks for its surface, where it came out of a record: by its name, or, where no surface has
+  /// that, the only one that it lies on, which was renamed. Whether it has one.
   bool FindSurface(const haptics::SurfaceSet& surfaces)
   {
+    bool isNamed = false;
+    const haptics::HapticSurface* named = nullptr;
+    std::vector<const haptics::HapticSurface*> others;
     for (const auto& surface : surfaces.All())
     {
-      if (!this->Where.Surface && this->IsOf(*surface))
+      if (surface->Name == this->Name)
       {
-        vtkHapticProbeFiller::SetSurface(this->Probe, surface->Id());
-        this->Where.Surface = surface->TouchableSurface();
-        this->Where.Pose = surface->Pose();
+        isNamed = true;
+        named = !named && this->IsOf(*surface) ? surface.get() : named;
+      }
+      else if (this->LiesOn(*surface))
+      {
+        others.push_back(surface.get());
       }
     }
-    return this->Where.Surface != nullptr;
+    const haptics::HapticSurface* const found = isNamed ? named
+      : others.size() == 1                              ? others.front()
+                                                        : nullptr;
+    if (!found)
+    {
+      return false;
+    }
+    vtkHapticProbeFiller::SetSurface(this->Probe, found->Id());
+    this->Where.Surface = found->TouchableSurface();
+    this->Where.Pose = found->Pose();
+    return true;
   }
 
   /// Whether it is elsewhere now.
@@ -167,16 +214,7 @@ struct vtkHapticLandmarks::Landmark
     const bool isBehind = vtkMath::Dot(this->TriangleNormal().data(), this->Normal.data()) < 0.0;
     this->Where.Surface = surface;
     this->Where.Pose = pose;
-    const haptics::Triangle& corners =
-      surface->Triangles()[static_cast<std::size_t>(this->Where.Triangle)];
-    haptics::Vec3 local{};
-    for (int i = 0; i < 3; ++i)
-    {
-      const auto along = [&](int k) {
-        return this->Where.Weights[k] * surface->Points()[static_cast<std::size_t>(corners[k])][i];
-      };
-      local[i] = surface->Origin()[i] + (along(0) + along(1) + along(2));
-    }
+    const haptics::Vec3 local = this->PlaceIn(*surface);
     this->Where.Position = local;
     const haptics::Vec3 before = std::exchange(this->Position, pose.PointToWorld(local));
     haptics::Vec3 normal = this->TriangleNormal();
@@ -337,6 +375,12 @@ void vtkHapticLandmarks::RemoveAll()
     this->Landmarks.clear();
     this->Modified();
   }
+}
+
+int vtkHapticLandmarks::GetNumberOfFreeLandmarks()
+{
+  return static_cast<int>(std::count_if(this->Landmarks.begin(), this->Landmarks.end(),
+    [](const Landmark& landmark) { return !landmark.Where.Surface; }));
 }
 
 int vtkHapticLandmarks::GetNumberOfLandmarks()

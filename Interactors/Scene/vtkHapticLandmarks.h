@@ -53,13 +53,16 @@ public:
    * WriteCSV() have of it; an error where there is no such number. And such a one added at the end,
    * with its label, which returns its number; -1 and an error for other polydata. It lies where it
    * was, and belongs to no surface (-1), until the scene has a surface of the name of that on which
-   * it was dropped, with the triangle that was touched: then it stays on that.
+   * it was dropped, with the triangle that was touched: then it stays on that. Where no surface has
+   * that name, the only one with that triangle at the landmark's place is it, renamed.
    */
   void GetRecord(int number, vtkPolyData* record);
   int Add(vtkPolyData* record);
   ///@}
 
   int GetNumberOfLandmarks();
+  /** How many of them came out of records and have found no surface; as of the last Update(). */
+  int GetNumberOfFreeLandmarks();
   /** What was touched, then; null where there is no such number. Not to be changed. */
   vtkHapticProbe* GetLandmark(int number);
   /** Where it is now. Zeros and an error where there is no such number. */

@@ -426,8 +426,10 @@ void pqHapticsPanel::showContact()
       form.values->item(row, column)->setToolTip(text);
     }
   }
+  const int free = scene ? scene->GetRecords()->GetNumberOfFreeLandmarks() : 0;
+  const QString onNothing = free > 0 ? QString(", %1 on no surface").arg(free) : QString();
   form.landmarksGroup->setTitle(
-    landmarks > 0 ? "Landmarks (" + QString::number(landmarks) + ")" : QString("Landmarks"));
+    landmarks > 0 ? QString("Landmarks (%1%2)").arg(landmarks).arg(onNothing) : "Landmarks");
   form.dropLandmark->setEnabled(touching);
   form.removeLandmark->setEnabled(landmarks > 0);
   form.clearLandmarks->setEnabled(landmarks > 0);

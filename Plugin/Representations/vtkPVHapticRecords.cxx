@@ -191,6 +191,11 @@ void vtkPVHapticRecords::SetLandmarkDistance(int distance)
   }
 }
 
+int vtkPVHapticRecords::GetNumberOfFreeLandmarks()
+{
+  return this->Scene ? this->Scene->GetLandmarks()->GetNumberOfFreeLandmarks() : 0;
+}
+
 int vtkPVHapticRecords::GetNumberOfLandmarks()
 {
   return this->Scene ? this->Scene->GetLandmarks()->GetNumberOfLandmarks() : 0;

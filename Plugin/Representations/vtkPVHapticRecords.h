@@ -37,6 +37,7 @@ public:
   void RemoveLastLandmark();
   void ClearLandmarks();
   int GetNumberOfLandmarks();
+  int GetNumberOfFreeLandmarks();
   ///@}
   ///@{
   /**

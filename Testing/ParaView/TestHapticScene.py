@@ -390,6 +390,25 @@ self.GetOutput().ShallowCopy(sphere.GetOutput())"""
                 self.assertEqual(points, 0)
         self.hand.proxy.InvokeCommand("ClearLandmarks")
 
+    def test_landmarks_of_an_older_text_find_their_surface_after_it_was_renamed(self):
+        sphere = self.make("Sphere", ThetaResolution=48, PhiResolution=48)
+        display = self.touch(sphere)
+        self.step_to_contact(1500)
+        self.hand.drop_landmark()
+        contents = self.hand.LandmarkContents
+        simple.RenameSource("Skull", sphere)
+        self.hand.step(1)
+        place = self.hand.landmarks().GetPoint(0)
+        for moved in (0.0, 0.5):  # where it is not where it was, nobody knows that it is the same
+            display.Position = [moved, 0.0, 0.0]
+            self.hand.LandmarkContents = ""
+            self.hand.step(1)
+            self.hand.LandmarkContents = contents
+            self.hand.step(1)
+            self.assertEqual(self.hand.NumberOfFreeLandmarks, 1 if moved else 0)
+            self.assertEqual(self.hand.landmarks().GetPoint(0), place)
+        self.hand.proxy.InvokeCommand("ClearLandmarks")
+
     def test_a_text_of_landmarks_that_move_is_made_only_where_it_is_asked_for(self):
         display = self.touch(self.make("Sphere", ThetaResolution=48, PhiResolution=48))
         self.step_to_contact(1500)

@@ -1,6 +1,7 @@
 // Landmarks as they are kept in files: taken out of a scene and into another one, and of no use.
 #include "SceneTestTools.h"
 
+#include "haptics/Scene/FieldValues.h"
 #include "vtkActor.h"
 #include "vtkDoubleArray.h"
 #include "vtkHapticLandmarks.h"
@@ -12,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 namespace
 {
@@ -105,6 +107,46 @@ TEST(LandmarkRecords, FindTheirSurfaceByItsNameAndGoWithIt)
   second.Actor->SetPosition(0.0, 0.0, -0.02);
   second.MoveTo(0.01);
   EXPECT_NEAR(second.Height(0), -0.02, Tolerance);
+}
+
+TEST(LandmarkRecords, FindARenamedSurfaceByTheirPlaceWhereThereIsOnlyOne)
+{
+  NamedTable first("Bone");
+  first.Drop();
+  NamedTable second("Skull");
+  Take(first.Marks(), second.Marks());
+  EXPECT_EQ(second.Marks()->GetNumberOfFreeLandmarks(), 1);
+  second.MoveTo(0.01);
+  EXPECT_EQ(second.Marks()->GetNumberOfFreeLandmarks(), 0);
+  EXPECT_EQ(second.Marks()->GetLandmark(0)->GetSurface(), second.Surface);
+  second.Actor->SetPosition(0.0, 0.0, -0.02);
+  second.MoveTo(0.01);
+  EXPECT_NEAR(second.Height(0), -0.02, Tolerance);
+  vtkNew<vtkPolyData> record;
+  second.Marks()->GetRecord(0, record);
+  std::string name;
+  ASSERT_TRUE(haptics::FieldValues(record->GetFieldData()).Get("SurfaceName", name));
+  EXPECT_EQ(name, "Skull");
+
+  // Which of two it is, nobody knows; nor is it another one while one has the name.
+  for (const char* another : { "Copy", "Bone" })
+  {
+    NamedTable scene("Skull");
+    vtkNew<vtkPlaneSource> fine;
+    fine->SetResolution(5, 5);
+    fine->Update();
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputData(another == std::string("Bone")
+        ? fine->GetOutput()
+        : vtkPolyData::SafeDownCast(scene.Actor->GetMapper()->GetInput()));
+    vtkNew<vtkActor> actor;
+    actor->SetMapper(mapper);
+    scene.Scene->GetSurfaces()->SetName(scene.Scene->AddSurface(actor), another);
+    Take(first.Marks(), scene.Marks());
+    scene.MoveTo(0.01);
+    EXPECT_EQ(scene.Marks()->GetNumberOfFreeLandmarks(), 1) << another;
+    EXPECT_NEAR(scene.Height(0), 0.0, Tolerance);
+  }
 }
 
 TEST(LandmarkRecords, StayWhereTheyWereOnAnotherSurface)
