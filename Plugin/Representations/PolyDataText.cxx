@@ -124,7 +124,7 @@ bool FromText(const std::string& text, vtkPolyData* data)
   failure->SetClientData(&hasFailed);
   failure->SetCallback(
     [](vtkObject*, unsigned long, void* flag, void*) { *static_cast<bool*>(flag) = true; });
-  if (!IsWhole(text))
+  if (!IsUnchanged(text))
   {
     return false;
   }

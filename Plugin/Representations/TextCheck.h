@@ -9,9 +9,9 @@ namespace haptics
 /// or changed.
 std::string WithCheck(std::string text);
 
-/// Whether a text is as WithCheck() has made it, but for space at its ends; or, where it has no
-/// check, one of an earlier version that a reader bears.
-bool IsWhole(const std::string& text);
+/// Whether a text with a check sum is as WithCheck() has made it, but for space at its ends; true
+/// for one without, which a reader has to judge: earlier versions wrote none.
+bool IsUnchanged(const std::string& text);
 }
 
 #endif

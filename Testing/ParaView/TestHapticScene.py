@@ -366,14 +366,11 @@ self.GetOutput().ShallowCopy(sphere.GetOutput())"""
         self.assertEqual(self.hand.NumberOfLandmarks, 2)
         self.hand.step(1)
         contents = self.hand.LandmarkContents
-        width = 16 if "UInt64" in older else 8  # of a number, in bytes and a half of base64
         damaged = {
             "garbage": 1, "</VTKFile>": 1, "<x></VTKFile>": 1, contents[:first]: 1, contents[: end // 2]: 1,
             contents[:-20]: 2, contents[: end // 2] + contents[end // 2 + 4:]: 1,
-            older.replace("AQAA", "AAAA"): 1, older.replace("AQAA", "zzzz"): 1, older.replace("AQAA", "AQAA" + "z" * width): 1,
-            older.replace(' type="Float64"', ""): 1, older.replace('NumberOfVerts="1"', 'NumberOfVerts="99999999999"'): 1,
-            older.replace('NumberOfTuples="1"', 'NumberOfTuples="99999999999"'): 1,
-            older.replace('NumberOfTuples="1"', 'NumberOfTuples="-1"'): 1,
+            contents.replace("AQAA", "AAAA"): 1, contents.replace("AQAA", "zzzz"): 1,
+            contents.replace('NumberOfTuples="1"', 'NumberOfTuples="99999999999"'): 1,
         }
         for text, number in damaged.items():
             with self.subTest(text=text[:200]):
