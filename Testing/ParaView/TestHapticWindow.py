@@ -347,18 +347,18 @@ def touch_what_is_applied_again(desktop, program):
     hand.wait(lambda state, *_: state.startswith("Engaged"), "Touch of what is applied again")
 
 
-# Where Qt 5 and Qt 6 put what is clicked on: in widths and heights of ParaView's window.
+# Where ParaView 5.11 and later ones (5.13, 6.1) put what is clicked on: in widths and heights of ParaView's window.
 PLACES = {
-    "5": {"stiffness": (0.851, 0.481), "Fit": (0.672, 0.785), "contour": (0.07, 0.286), "search": (0.10, 0.596),
+    "5.11": {"stiffness": (0.851, 0.481), "Fit": (0.672, 0.785), "contour": (0.07, 0.286), "search": (0.10, 0.596),
           "material's stiffness": (0.158, 0.841)},
-    "6": {"stiffness": (0.833, 0.450), "Fit": (0.688, 0.728), "contour": (0.064, 0.276), "search": (0.137, 0.611),
+    "later": {"stiffness": (0.833, 0.450), "Fit": (0.688, 0.728), "contour": (0.064, 0.276), "search": (0.137, 0.611),
           "material's stiffness": (0.158, 0.841)},
 }
 
 
 def click(desktop, program, name):
     version = desktop.xdo("getwindowname", program.window).split()[1]
-    program.move(*PLACES[version.partition(".")[0]][name])
+    program.move(*PLACES["5.11" if version.startswith("5.11.") else "later"][name])
     desktop.xdo("click", "1")
 
 
