@@ -307,26 +307,36 @@ bool IsRightEdgeEmpty(vtkRenderWindow* window)
   }
   return true;
 }
+
+/// An overlay alone in a window off screen.
+struct OverlayWindow
+{
+  vtkNew<vtkRenderer> Renderer;
+  vtkNew<vtkRenderWindow> Window;
+  vtkNew<vtkHapticOverlay> Overlay;
+
+  OverlayWindow(int width, int height)
+  {
+    this->Renderer->AddViewProp(this->Overlay);
+    this->Window->SetOffScreenRendering(1);
+    this->Window->SetMultiSamples(0);
+    this->Window->SetSize(width, height);
+    this->Window->AddRenderer(this->Renderer);
+  }
+};
 }
 
 TEST(HapticOverlay, AllBoxesBeginInOneColumnAndHaveRoomAroundTheirText)
 {
-  vtkNew<vtkRenderer> renderer;
-  vtkNew<vtkRenderWindow> window;
-  vtkNew<vtkHapticOverlay> overlay;
-  renderer->AddViewProp(overlay);
-  renderer->SetBackground(0.0, 0.5, 0.0);
-  window->SetOffScreenRendering(1);
-  window->SetMultiSamples(0);
   const int size[2] = { 900, 400 };
-  window->SetSize(size[0], size[1]);
-  window->AddRenderer(renderer);
-  overlay->SetHint("short\n(the longest line of a text, which ends in this)\nshort");
-  overlay->SetStatus("|touching|");
-  overlay->SetReadout("table   cell 0\n0.1, -0.1, 0.2");
-  window->Render();
+  OverlayWindow shown(size[0], size[1]);
+  shown.Renderer->SetBackground(0.0, 0.5, 0.0);
+  shown.Overlay->SetHint("short\n(the longest line of a text, which ends in this)\nshort");
+  shown.Overlay->SetStatus("|touching|");
+  shown.Overlay->SetReadout("table   cell 0\n0.1, -0.1, 0.2");
+  shown.Window->Render();
   vtkNew<vtkUnsignedCharArray> pixels;
-  window->GetPixelData(0, 0, size[0] - 1, size[1] - 1, 0, pixels);
+  shown.Window->GetPixelData(0, 0, size[0] - 1, size[1] - 1, 0, pixels);
   std::set<int> begins;
   for (int y = 0; y < size[1]; ++y)
   {
@@ -354,27 +364,22 @@ TEST(HapticOverlay, AllBoxesBeginInOneColumnAndHaveRoomAroundTheirText)
 
 TEST(HapticOverlay, NoTextLiesOverAnother)
 {
-  vtkNew<vtkRenderer> renderer;
-  vtkNew<vtkRenderWindow> window;
-  vtkNew<vtkHapticOverlay> overlay;
-  renderer->AddViewProp(overlay);
-  window->SetOffScreenRendering(1);
-  window->SetMultiSamples(0);
-  window->AddRenderer(renderer);
+  OverlayWindow shown(400, 300);
   const auto picture =
     [&](const std::string& readout, const std::string& help, const std::string& hint)
   {
-    overlay->SetReadout(readout);
-    overlay->SetHelp(help);
-    overlay->SetShowHelp(!help.empty());
-    overlay->SetHint(hint);
-    window->Render();
+    shown.Overlay->SetReadout(readout);
+    shown.Overlay->SetHelp(help);
+    shown.Overlay->SetShowHelp(!help.empty());
+    shown.Overlay->SetHint(hint);
+    shown.Window->Render();
     vtkNew<vtkUnsignedCharArray> pixels;
-    window->GetPixelData(0, 0, window->GetSize()[0] - 1, window->GetSize()[1] - 1, 0, pixels);
+    shown.Window->GetPixelData(
+      0, 0, shown.Window->GetSize()[0] - 1, shown.Window->GetSize()[1] - 1, 0, pixels);
     return std::vector<unsigned char>(
       pixels->GetPointer(0), pixels->GetPointer(0) + pixels->GetNumberOfValues());
   };
-  overlay->SetStatus("touching");
+  shown.Overlay->SetStatus("touching");
   const std::string readout = "table   cell 0\n0.1, -0.1, 0.2\nSulc 1\nCurvature 2";
   const std::string line = "space held   press; move to stroke";
   std::string keys = line;
@@ -384,7 +389,7 @@ TEST(HapticOverlay, NoTextLiesOverAnother)
   }
   for (const auto& size : { std::array<int, 2>{ 400, 300 }, { 600, 250 }, { 1200, 800 } })
   {
-    window->SetSize(size[0], size[1]);
+    shown.Window->SetSize(size[0], size[1]);
     const bool hasRoom = size[1] == 800;
     EXPECT_EQ(picture(readout, keys, "") != picture("", keys, ""), hasRoom)
       << size[1] << " pixels: the read-out goes for the help that is asked for";
@@ -406,28 +411,21 @@ TEST(HapticOverlay, NoTextIsCutOffInANarrowView)
     [](vtkHapticOverlay* overlay, const std::string& text) { overlay->SetReadout(text); } };
   for (const Show show : shows)
   {
-    vtkNew<vtkRenderer> renderer;
-    vtkNew<vtkRenderWindow> window;
-    vtkNew<vtkHapticOverlay> overlay;
-    renderer->AddViewProp(overlay);
-    window->SetOffScreenRendering(1);
-    window->SetMultiSamples(0);
-    window->SetSize(270, 400);
-    window->AddRenderer(renderer);
-    window->Render();
-    ASSERT_TRUE(IsRightEdgeEmpty(window)) << "the bar";
-    show(overlay, line);
-    window->Render();
-    EXPECT_TRUE(IsRightEdgeEmpty(window)) << "in a font that is small enough";
+    OverlayWindow shown(270, 400);
+    shown.Window->Render();
+    ASSERT_TRUE(IsRightEdgeEmpty(shown.Window)) << "the bar";
+    show(shown.Overlay, line);
+    shown.Window->Render();
+    EXPECT_TRUE(IsRightEdgeEmpty(shown.Window)) << "in a font that is small enough";
     for (int width = 280; width < 600; width += 20)
     {
-      window->SetSize(width, 400);
-      window->Render();
-      EXPECT_TRUE(IsRightEdgeEmpty(window)) << width << " pixels";
+      shown.Window->SetSize(width, 400);
+      shown.Window->Render();
+      EXPECT_TRUE(IsRightEdgeEmpty(shown.Window)) << width << " pixels";
     }
-    show(overlay, line + "\n" + line);
-    window->SetSize(900, 400);
-    window->Render();
-    EXPECT_TRUE(IsRightEdgeEmpty(window)) << "with room";
+    show(shown.Overlay, line + "\n" + line);
+    shown.Window->SetSize(900, 400);
+    shown.Window->Render();
+    EXPECT_TRUE(IsRightEdgeEmpty(shown.Window)) << "with room";
   }
 }

@@ -404,20 +404,17 @@ class Viewer:
         self.detail.set_live(False)
         inputs = input_files(self.options)
         check_outputs(output_files(self.options), inputs)  # others may have moved files meanwhile
-        written = []  # said when all is done, as nobody may be there any more to read it
         if self.options.screenshot:
             self.renderer.ResetCameraClippingRange()
             self.hand.IncludeInClippingRange(self.renderer)
             save_window(self.window, self.options.screenshot, scale=1, inputs=inputs)
-            written.append(f"picture: {self.options.screenshot}")
+            print(f"picture: {self.options.screenshot}")
         if self.options.trace:
             write_polydata(self.options.trace, self.scene.GetTrace(), inputs)
-            written.append(f"trace:   {self.options.trace}")
+            print(f"trace:   {self.options.trace}")
         if self.options.landmarks:
             self.scene.GetLandmarks().WriteCSV(self.options.landmarks)  # raises HapticsError
-            written.append(f"landmarks: {self.options.landmarks}")
-        for line in written:
-            print(line)
+            print(f"landmarks: {self.options.landmarks}")
 
 
 def input_files(options):
