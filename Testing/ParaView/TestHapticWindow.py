@@ -420,6 +420,7 @@ def press_after_other_widgets(desktop, program):
     time.sleep(0.5)
     program.key("k")
     hand.wait(lambda state, *_: state == "Engaged, clutched: nothing is touched", "the clutch by its key")
+    time.sleep(0.5)  # or it may pass for the first one, held
     program.key("k")
     program.move(0.46, 0.70)
     program.drag(0.47, 0.71)
